@@ -1,0 +1,13 @@
+//! Keys, neighbours, sites and the update, over many meshes: one program, so that it is linked once.
+
+mod checks;
+mod diag;
+mod executable_model;
+mod forest_against_model;
+mod forest_properties;
+mod meshes;
+mod metrics;
+mod neighbours;
+mod places;
+mod recorded;
+mod sites;

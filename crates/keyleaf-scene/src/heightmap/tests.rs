@@ -1,0 +1,3 @@
+//! Height maps of all formats, broken ones, and real terrain.
+
+use super::*;

@@ -1,0 +1,87 @@
+//! Models: OBJ, glTF, PLY and STL files as one welded polygon mesh with one material.
+//!
+//! Right-handed, Y up, metres, as the file has them: nothing is turned or scaled. Faces run anticlockwise seen from
+//! outside. Texture coordinates have v = 0 at the bottom of the picture. Colours are linear RGBA.
+
+mod gltf;
+mod gltf_data;
+#[cfg(test)]
+mod gltf_tests;
+mod join;
+mod mtl;
+mod obj;
+mod ply;
+mod ply_values;
+mod stl;
+#[cfg(test)]
+mod tests;
+
+use std::path::Path;
+
+use crate::mesh::PolygonMesh;
+
+use crate::error::{ImportError, extension, read_file};
+use crate::material::SurfaceMaterial;
+use crate::note::Note;
+use crate::weld::weld;
+
+/// The file types of models, as an error lists them.
+pub const MODEL_EXTENSIONS: &str = ".obj, .gltf, .glb, .ply, .stl";
+
+/// A model file, read.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// Welded and checked: `Topology::new` accepts it.
+    pub mesh: PolygonMesh,
+    /// The one material; where the file has several, base colours are in the corner colours and pictures are joined.
+    pub material: SurfaceMaterial,
+    /// What was done to the file.
+    pub notes: Vec<Note>,
+}
+
+/// Whether a file name ends in one of [`MODEL_EXTENSIONS`].
+pub fn is_model(file: &Path) -> bool {
+    matches!(extension(file).as_str(), "obj" | "gltf" | "glb" | "ply" | "stl")
+}
+
+/// Reads a model; the ending of its name tells the format.
+///
+/// # Errors
+/// [`ImportError`] names the file, the place and the reason. Nothing panics, whatever the bytes are.
+///
+/// ```
+/// let error = keyleaf_scene::read_model("no/such/cow.obj".as_ref()).unwrap_err();
+/// assert!(error.to_string().starts_with("no/such/cow.obj: cannot be read"));
+/// ```
+pub fn read_model(file: &Path) -> Result<Model, ImportError> {
+    if !is_model(file) {
+        return Err(ImportError::UnknownExtension {
+            file: file.to_path_buf(),
+            extension: extension(file),
+            expected: MODEL_EXTENSIONS,
+        });
+    }
+    decode(file, &read_file(file)?)
+}
+
+/// Reads a model from the bytes of `file`; what it refers to is looked for beside `file`.
+fn decode(file: &Path, bytes: &[u8]) -> Result<Model, ImportError> {
+    let mut notes = Vec::new();
+    let plain = vec![SurfaceMaterial::default()];
+    let (soup, materials) = match extension(file).as_str() {
+        "obj" => {
+            let read = obj::read(file, bytes, &mut notes)?;
+            (read.soup, read.materials)
+        }
+        "ply" => (ply::read(file, bytes, &mut notes)?, plain),
+        "stl" => (stl::read(file, bytes, &mut notes)?, plain),
+        _ => {
+            let read = gltf::read(file, bytes, &mut notes)?;
+            (read.soup, read.materials)
+        }
+    };
+    let welded = weld(file, &soup, &mut notes)?;
+    let mut mesh = welded.mesh;
+    let material = join::join(file, &mut mesh, &welded.materials, &materials, &mut notes);
+    Ok(Model { mesh, material, notes })
+}

@@ -1,0 +1,281 @@
+//! Wavefront OBJ: polygons of any size, texture coordinates, normals, vertex colours, materials.
+//!
+//! A reader of the project's own, since an error has to name its line, polygons must stay whole, and vertices must
+//! not be split by material. What is no polygon (points, lines, free-form curves and surfaces, subdivision tags) is
+//! skipped with a note. Sizes: one pass over the text, about 60 bytes a corner.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use glam::DVec3;
+
+use crate::error::{FilePlace, ImportError};
+use crate::material::SurfaceMaterial;
+use crate::note::Note;
+use crate::soup::{Soup, check_finite, linear_from_srgb, unit};
+
+use super::mtl;
+
+/// What an OBJ file holds.
+pub(super) struct Obj {
+    pub soup: Soup,
+    pub materials: Vec<SurfaceMaterial>,
+}
+
+/// The tables that face lines refer to, and what is seen on the way.
+#[derive(Default)]
+struct Reader {
+    soup: Soup,
+    colours: Vec<Option<[f32; 3]>>,
+    uvs: Vec<[f32; 2]>,
+    normals: Vec<[f32; 3]>,
+    /// Texture coordinate and normal of each corner, `u32::MAX` where the face names none.
+    corner_uv: Vec<u32>,
+    corner_normal: Vec<u32>,
+    libraries: Vec<PathBuf>,
+    material_names: Vec<String>,
+    material_index: HashMap<String, u32>,
+    material: u32,
+    skipped: HashMap<&'static str, usize>,
+}
+
+const NONE: u32 = u32::MAX;
+
+/// Reads an OBJ file from its bytes; `file` names it in errors and is where material libraries are looked for.
+pub(super) fn read(file: &Path, bytes: &[u8], notes: &mut Vec<Note>) -> Result<Obj, ImportError> {
+    let text = String::from_utf8_lossy(bytes);
+    let mut reader = Reader::default();
+    reader.soup.states_topology = true;
+    // Faces before the first `usemtl`.
+    reader.use_material("");
+    let mut joined = String::new();
+    let mut first_line = 0;
+    for (index, line) in text.lines().enumerate() {
+        let number = index + 1;
+        let line = line.split('#').next().unwrap_or("");
+        if let Some(start) = line.trim_end().strip_suffix('\\') {
+            if joined.is_empty() {
+                first_line = number;
+            }
+            joined.push_str(start);
+            joined.push(' ');
+            continue;
+        }
+        if joined.is_empty() {
+            reader.line(file, number, line)?;
+        } else {
+            joined.push_str(line);
+            reader.line(file, first_line, &joined)?;
+            joined.clear();
+        }
+    }
+    if !joined.is_empty() {
+        let place = FilePlace::Line(text.lines().count());
+        return Err(ImportError::malformed(file, place, "the last line ends in a continuation '\\'"));
+    }
+    reader.finish(file, notes)
+}
+
+impl Reader {
+    fn line(&mut self, file: &Path, number: usize, line: &str) -> Result<(), ImportError> {
+        let mut words = line.split_ascii_whitespace();
+        let Some(keyword) = words.next() else { return Ok(()) };
+        match keyword {
+            "v" => self.vertex(file, number, words),
+            "vt" => {
+                let mut uv = numbers::<2>(file, number, "vt", 1, words)?.0;
+                uv.iter_mut().for_each(|c| *c += 0.0);
+                self.uvs.push(uv.map(|c| c as f32));
+                Ok(())
+            }
+            "vn" => {
+                let (normal, _) = numbers::<3>(file, number, "vn", 3, words)?;
+                self.normals.push(unit(DVec3::from(normal)));
+                Ok(())
+            }
+            "f" | "fo" => self.face(file, number, words),
+            "usemtl" => {
+                self.use_material(rest_of(line, keyword));
+                Ok(())
+            }
+            "mtllib" => {
+                self.libraries.push(PathBuf::from(rest_of(line, keyword)));
+                Ok(())
+            }
+            "p" | "l" => self.skip("points and lines"),
+            "curv" | "curv2" | "surf" => self.skip("free-form curves and surfaces"),
+            // Names, groups, smoothing, free-form bodies, subdivision tags.
+            _ => Ok(()),
+        }
+    }
+
+    fn skip(&mut self, what: &'static str) -> Result<(), ImportError> {
+        *self.skipped.entry(what).or_default() += 1;
+        Ok(())
+    }
+
+    fn use_material(&mut self, name: &str) {
+        let next = self.material_names.len() as u32;
+        self.material = *self.material_index.entry(name.to_owned()).or_insert_with(|| {
+            self.material_names.push(name.to_owned());
+            next
+        });
+    }
+
+    /// `v x y z`, `v x y z w` (a rational weight, ignored) or `v x y z r g b`.
+    fn vertex<'a>(
+        &mut self,
+        file: &Path,
+        number: usize,
+        words: impl Iterator<Item = &'a str>,
+    ) -> Result<(), ImportError> {
+        let (values, count) = numbers::<7>(file, number, "v", 3, words)?;
+        self.soup.positions.push(DVec3::new(values[0], values[1], values[2]));
+        // Colours are stored as they are seen, that is sRGB.
+        let colour = [values[3], values[4], values[5]].map(|c| linear_from_srgb(c as f32));
+        self.colours.push((count >= 6).then_some(colour));
+        Ok(())
+    }
+
+    fn face<'a>(
+        &mut self,
+        file: &Path,
+        number: usize,
+        words: impl Iterator<Item = &'a str>,
+    ) -> Result<(), ImportError> {
+        let first = self.soup.corners.len();
+        for word in words {
+            let mut parts = word.split('/');
+            let tables = [
+                ("vertex", self.soup.positions.len()),
+                ("texture coordinate", self.uvs.len()),
+                ("normal", self.normals.len()),
+            ];
+            let mut corner = [NONE; 3];
+            for (slot, (what, count)) in corner.iter_mut().zip(tables) {
+                match parts.next() {
+                    None | Some("") => {}
+                    Some(text) => *slot = index(file, number, what, text, count)?,
+                }
+            }
+            if corner[0] == NONE || parts.next().is_some() {
+                let reason = format!("'{word}' is no face corner; expected v, v/vt, v//vn or v/vt/vn");
+                return Err(ImportError::malformed(file, FilePlace::Line(number), reason));
+            }
+            self.soup.corners.push(corner[0]);
+            self.corner_uv.push(corner[1]);
+            self.corner_normal.push(corner[2]);
+        }
+        let count = self.soup.corners.len() - first;
+        if count < 3 {
+            let reason = format!("a face needs at least 3 corners, this one has {count}");
+            return Err(ImportError::malformed(file, FilePlace::Line(number), reason));
+        }
+        self.soup.ends.push(self.soup.corners.len() as u32);
+        self.soup.lines.push(number as u32);
+        self.soup.materials.push(self.material);
+        Ok(())
+    }
+
+    fn finish(mut self, file: &Path, notes: &mut Vec<Note>) -> Result<Obj, ImportError> {
+        let mut skipped: Vec<_> = self.skipped.iter().collect();
+        skipped.sort();
+        for (what, count) in skipped {
+            notes.push(Note::warning(file, format!("{count} {what} are not read")));
+        }
+        self.gather_attributes(file, notes);
+        let libraries = mtl::read_libraries(file, &self.libraries, notes);
+        let missing = |name: &String| !name.is_empty() && !libraries.contains_key(name);
+        for name in self.material_names.iter().filter(|name| missing(name)) {
+            notes.push(Note::warning(file, format!("material '{name}' is in no material library")));
+        }
+        let materials = self
+            .material_names
+            .iter()
+            .map(|name| libraries.get(name).cloned().unwrap_or_default())
+            .collect();
+        Ok(Obj { soup: self.soup, materials })
+    }
+
+    /// Turns the indices of attributes into attributes of the corners.
+    fn gather_attributes(&mut self, file: &Path, notes: &mut Vec<Note>) {
+        let named = |corners: &[u32]| corners.iter().filter(|&&c| c != NONE).count();
+        let lookup = |i: u32| if i == NONE { None } else { Some(i as usize) };
+        let corners = self.soup.corners.len();
+        let (with_uv, with_normal) = (named(&self.corner_uv), named(&self.corner_normal));
+        if with_uv > 0 {
+            let uvs = self.corner_uv.iter().map(|&i| lookup(i).map_or([0.0; 2], |i| self.uvs[i]));
+            self.soup.uvs = uvs.collect();
+        }
+        if with_normal == corners {
+            let normals = self.corner_normal.iter().map(|&i| self.normals[i as usize]);
+            self.soup.normals = normals.collect();
+        } else if with_normal > 0 {
+            let text = "normals are ignored: not all corners have one";
+            notes.push(Note::note(file, text));
+        }
+        if self.colours.iter().any(Option::is_some) {
+            let colour = |&v: &u32| {
+                let [r, g, b] = self.colours[v as usize].unwrap_or([1.0; 3]);
+                [r, g, b, 1.0]
+            };
+            self.soup.colours = self.soup.corners.iter().map(colour).collect();
+        }
+    }
+}
+
+/// The rest of a line after its keyword, trimmed: names may hold spaces.
+fn rest_of<'a>(line: &'a str, keyword: &str) -> &'a str {
+    line.trim_start().strip_prefix(keyword).unwrap_or("").trim()
+}
+
+/// Up to `N` finite numbers, at least `least` of them, and how many there were. More are ignored.
+fn numbers<'a, const N: usize>(
+    file: &Path,
+    line: usize,
+    keyword: &'static str,
+    least: usize,
+    words: impl Iterator<Item = &'a str>,
+) -> Result<([f64; N], usize), ImportError> {
+    let mut values = [0.0; N];
+    let mut count = 0;
+    for (value, word) in values.iter_mut().zip(words) {
+        *value = word.parse().map_err(|_| {
+            let reason = format!("'{word}' after '{keyword}' is no number");
+            ImportError::malformed(file, FilePlace::Line(line), reason)
+        })?;
+        count += 1;
+    }
+    if count < least {
+        let reason = format!("'{keyword}' needs at least {least} numbers, found {count}");
+        return Err(ImportError::malformed(file, FilePlace::Line(line), reason));
+    }
+    check_finite(file, || FilePlace::Line(line), keyword, &values)?;
+    Ok((values, count))
+}
+
+/// A 1-based or, if negative, backward index as a 0-based one.
+fn index(
+    file: &Path,
+    line: usize,
+    what: &'static str,
+    text: &str,
+    count: usize,
+) -> Result<u32, ImportError> {
+    let place = FilePlace::Line(line);
+    let Ok(index) = text.parse::<i64>() else {
+        let reason = format!("'{text}' is no {what} index");
+        return Err(ImportError::malformed(file, place, reason));
+    };
+    let from_start = if index > 0 { index - 1 } else { index.saturating_add(count as i64) };
+    if index == 0 || from_start < 0 || from_start >= count as i64 {
+        return Err(ImportError::IndexOutOfRange {
+            file: file.to_path_buf(),
+            place,
+            what,
+            index,
+            count,
+        });
+    }
+    Ok(from_start as u32)
+}

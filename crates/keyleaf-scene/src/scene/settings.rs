@@ -1,0 +1,133 @@
+//! How finely a scene is drawn, and within which limits.
+
+use serde::{Deserialize, Serialize};
+
+/// The settings of a scene. All surfaces share them, but for what [`SettingsOverrides`] of a surface say.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Settings {
+    /// When a leaf splits. Default `Edge(pixels: 8.0)`.
+    pub metric: Metric,
+    /// k: every leaf is drawn as 4^k triangles; 0..=6, default 2.
+    pub base_grid: u32,
+    /// The most leaves of all surfaces together, at least the number of roots; default 262144. What does not fit is
+    /// drawn coarser, never left out.
+    pub capacity: u32,
+    /// Update passes a frame; 1..=64, default 1. More follow a fast camera sooner, at their cost.
+    pub settle: u32,
+    /// A number of leaves that a controller aims at by changing the threshold, 1..=capacity; default `None`: the
+    /// threshold is as the metric says.
+    pub target_leaves: Option<u32>,
+    /// The deepest level of a leaf; 0..=31 - base_grid, default `None`: 31 - base_grid.
+    pub max_level: Option<u32>,
+    /// What lies outside the view.
+    pub guard_band: GuardBand,
+    /// Which leaves are not drawn. Default `Frustum`.
+    pub culling: Culling,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            metric: Metric::default(),
+            base_grid: 2,
+            capacity: 1 << 18,
+            settle: 1,
+            target_leaves: None,
+            max_level: None,
+            guard_band: GuardBand::default(),
+            culling: Culling::default(),
+        }
+    }
+}
+
+impl Settings {
+    /// The settings of one surface.
+    pub fn with(&self, overrides: &SettingsOverrides) -> Self {
+        Self {
+            metric: overrides.metric.unwrap_or(self.metric),
+            max_level: overrides.max_level.or(self.max_level),
+            culling: overrides.culling.unwrap_or(self.culling),
+            ..self.clone()
+        }
+    }
+
+    /// The deepest level of a leaf: level and base grid together have at most 31 digits.
+    pub fn deepest_level(&self) -> u32 {
+        let possible = keyleaf_key::MAX_LEVEL - self.base_grid.min(keyleaf_key::MAX_LEVEL);
+        self.max_level.unwrap_or(possible).min(possible)
+    }
+}
+
+/// When a leaf splits.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum Metric {
+    /// When the bound of a drawn edge is longer than this on the screen.
+    Edge {
+        /// Length of a drawn edge in pixels, above 0; default 8.
+        #[serde(default = "Metric::default_pixels")]
+        pixels: f64,
+    },
+    /// When the size of a leaf divided by its distance to the eye is above a threshold, whatever the picture's size
+    /// (Khoury 2.1).
+    Distance {
+        /// Leaf size over distance, above 0 and below 1; default 0.05.
+        #[serde(default = "Metric::default_factor")]
+        factor: f64,
+    },
+}
+
+impl Metric {
+    fn default_pixels() -> f64 {
+        8.0
+    }
+
+    fn default_factor() -> f64 {
+        0.05
+    }
+}
+
+impl Default for Metric {
+    fn default() -> Self {
+        Self::Edge { pixels: Self::default_pixels() }
+    }
+}
+
+/// What lies outside the view, but near it, stays fine, so that a turn of the camera finds it ready.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct GuardBand {
+    /// Width of the band on every side, as a fraction of the picture's width and height; 0..=10, default 0.25.
+    pub margin: f64,
+    /// How many times coarser leaves beyond it may become; at least 1 (as fine as in view), default 8.
+    pub coarsen: f64,
+}
+
+impl Default for GuardBand {
+    fn default() -> Self {
+        Self { margin: 0.25, coarsen: 8.0 }
+    }
+}
+
+/// Which leaves are not drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum Culling {
+    /// Those whose bound lies outside the view.
+    #[default]
+    Frustum,
+    /// None: all are drawn.
+    Off,
+}
+
+/// Settings that a surface has for itself; what is `None` is as in the scene.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SettingsOverrides {
+    /// See [`Settings::metric`].
+    pub metric: Option<Metric>,
+    /// See [`Settings::max_level`].
+    pub max_level: Option<u32>,
+    /// See [`Settings::culling`].
+    pub culling: Option<Culling>,
+}

@@ -1,0 +1,108 @@
+//! What every surface answers, and what the GPU reads of it.
+
+use crate::{ParameterError, coordinate};
+use glam::DVec3;
+use keyleaf_key::{Place, RootPoint, Topology};
+use std::sync::Arc;
+
+/// A surface over the faces of a mesh. The twin of the WGSL functions `surface_point`, `surface_frame` and `surface_bound`.
+///
+/// Points must exist: a face and root of the topology, x + y at most [`ONE`](keyleaf_key::ONE).
+pub trait Surface: Send + Sync {
+    /// The faces and how they meet.
+    fn topology(&self) -> &Topology;
+
+    /// The position of a point, in object space.
+    fn point(&self, at: RootPoint) -> DVec3;
+
+    /// Position, derivatives and normal of a point.
+    fn frame(&self, at: RootPoint) -> SurfaceFrame;
+
+    /// Bounds of the diamond of a leaf; both of its halves give the same.
+    fn bound(&self, leaf: &Place) -> SurfaceBound;
+
+    /// Least and greatest coordinates of a box that holds the whole surface.
+    fn bounding_box(&self) -> (DVec3, DVec3);
+
+    /// The WGSL file of the twin, relative to the folder `shaders`.
+    fn shader(&self) -> &'static str;
+
+    /// What the GPU reads, for positions relative to `origin` (object space).
+    fn tables(&self, origin: DVec3) -> SurfaceTables;
+
+    /// The point with face-local parameters (u, v), to the nearest multiple of 2⁻³¹.
+    ///
+    /// Quads: the unit square with corners 0..3 at (0, 0), (1, 0), (1, 1), (0, 1). Triangles: corners (0, 0), (1, 0), (0, 1).
+    /// Polygons with n > 4 corners: u in 0..=n runs along the boundary, corner r at (r, 0), and v = 1 is the centre.
+    ///
+    /// # Errors
+    /// [`ParameterError`] if there is no such face or (u, v) is NaN or outside it.
+    fn face_coord(&self, face: u32, u: f64, v: f64) -> Result<RootPoint, ParameterError> {
+        coordinate::root_point(self.topology(), face, u, v)
+    }
+}
+
+/// A point with its tangent plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceFrame {
+    /// Position, object space.
+    pub position: DVec3,
+    /// Derivative in the face's first parameter (see [`Surface::face_coord`]).
+    pub du: DVec3,
+    /// Derivative in the second parameter.
+    pub dv: DVec3,
+    /// The direction of du × dv, of unit length also where that vanishes.
+    pub normal: DVec3,
+}
+
+/// Bounds of the diamond of a leaf: the leaf and the node across its hypotenuse. Lengths in object units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceBound {
+    /// The middle of the hypotenuse, on the surface.
+    pub centre: DVec3,
+    /// The ball about the centre that holds the surface over the diamond. For culling.
+    pub radius: f64,
+    /// Bounds half the length of the drawn hypotenuse and of the median from above; at most half the parent's. For metrics.
+    pub size: f64,
+    /// Radius of a ball about the centre that holds those of the children. For the guard band.
+    pub guard: f64,
+}
+
+/// What a surface module reads in group 1: binding 0 `params`, 2 `a`, 3 `b`, 4 `heights`, 5 `height_bounds`. An empty table or
+/// absent texture is not declared by the module.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SurfaceTables {
+    /// The uniform `surface`.
+    pub params: Vec<u8>,
+    /// The storage buffer `surface_a`.
+    pub a: Vec<f32>,
+    /// The storage buffer `surface_b`.
+    pub b: Vec<u32>,
+    /// The texture `heights`, R32Float. Shared: it does not depend on the origin.
+    pub heights: Option<Arc<TextureData>>,
+    /// The texture `height_bounds`, RGBA32Float with mip levels. Shared likewise.
+    pub height_bounds: Option<Arc<TextureData>>,
+}
+
+/// The texels of a two-dimensional texture of 32-bit floats.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TextureData {
+    /// Texels a row of level 0. Level m has `max(1, width >> m)`.
+    pub width: u32,
+    /// Rows of level 0.
+    pub height: u32,
+    /// Floats a texel: 1 (R32Float) or 4 (RGBA32Float).
+    pub channels: u32,
+    /// Every mip level, row by row.
+    pub mips: Vec<Vec<f32>>,
+}
+
+/// The bytes of a uniform, laid out as WGSL does.
+pub(crate) fn uniform<T: encase::ShaderType + encase::internal::WriteInto>(params: &T) -> Vec<u8> {
+    let mut buffer = encase::UniformBuffer::new(Vec::new());
+    match buffer.write(params) {
+        Ok(()) => buffer.into_inner(),
+        // A growing vector has room for anything.
+        Err(_) => Vec::new(),
+    }
+}

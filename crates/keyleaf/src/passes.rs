@@ -1,0 +1,139 @@
+//! The compute pipelines of the update, device-long for one kind of surface, metric and balance.
+
+use crate::KeyleafError;
+use crate::binding::{self, Binding};
+use crate::settings::Balance;
+use crate::surface_buffers::surface_layout;
+use keyleaf_shaders::compose;
+
+use Binding::{Absent, Read, Uniform, Write};
+
+/// What decides which shaders a quadtree needs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub struct Kind {
+    /// WGSL file of the surface.
+    pub surface: &'static str,
+    /// Whether the surface has height textures.
+    pub has_heights: bool,
+    /// WGSL file of the metric.
+    pub metric: &'static str,
+    /// How neighbours are kept from cracking.
+    pub balance: Balance,
+}
+
+/// One module of the update: its name, the WGSL files it is composed of, the bindings of its group 0 and its entry points.
+#[derive(Debug, Clone)]
+pub struct Module {
+    /// Name, as in labels and `plan`.
+    pub name: &'static str,
+    /// WGSL files, without those that they require.
+    pub files: Vec<&'static str>,
+    pub(crate) bindings: &'static [Binding],
+    pub(crate) uses_surface: bool,
+    /// Entry points, each a pipeline.
+    pub entries: &'static [&'static str],
+}
+
+/// The modules of the update for a kind of quadtree. No device is needed: `plan` and the tests of the shaders ask too.
+pub fn modules(kind: &Kind) -> Vec<Module> {
+    let module = |name, files: &[&'static str], bindings, uses_surface, entries| Module {
+        name,
+        files: files.to_vec(),
+        bindings,
+        uses_surface,
+        entries,
+    };
+    const UPDATE: &[Binding] = &[Uniform, Read, Read, Write, Write, Write];
+    const DECIDE: &[Binding] = &[Uniform, Read, Read, Write, Write, Write];
+    const APPLY: &[Binding] = &[Uniform, Write, Write, Write, Write, Write];
+    const MEASURE: &[Binding] = &[Uniform, Read, Write, Write, Read, Write];
+    const COMPACT: &[Binding] = &[Uniform, Write, Write, Write, Write, Write, Write, Write];
+    const REBUILD: &[Binding] = &[Uniform, Write, Write, Absent, Absent, Write];
+    const COPY: &[Binding] = &[Uniform, Write, Write];
+    let (speaker, decide, change): (_, _, &[_]) = match kind.balance {
+        Balance::Table => ("shared/balance.wgsl", "passes/decide.wgsl", &["passes/apply.wgsl"]),
+        Balance::Off => ("shared/balance_off.wgsl", "passes/decide_alone.wgsl", &["passes/apply_alone.wgsl"]),
+    };
+    let mut all = vec![
+        module("update", &["passes/update.wgsl", speaker], UPDATE, false, &["update"]),
+        module("decide", &[decide], DECIDE, true, &["decide"]),
+        module("apply", change, APPLY, true, &["apply"]),
+        module("measure", &["passes/measure.wgsl", speaker, kind.surface, kind.metric], MEASURE, true, &["measure", "measure_all"]),
+        module("compact", &["passes/compact.wgsl"], COMPACT, false, &["match_slots", "move_leaves"]),
+        module("copy", &["passes/copy.wgsl"], COPY, false, &["copy_changes", "copy_leaves", "copy_counts"]),
+    ];
+    if kind.balance == Balance::Table {
+        all.push(module("flag", &["passes/flag.wgsl"], DECIDE, true, &["flag", "flag_all"]));
+        all.push(module("rebuild", &["passes/rebuild.wgsl"], REBUILD, false, &["clear_table", "enter_leaves"]));
+    }
+    all
+}
+
+/// The pipelines of one module, with the layout of its group 0.
+#[derive(Debug)]
+pub(crate) struct Stage {
+    pub layout: wgpu::BindGroupLayout,
+    pub pipelines: Vec<wgpu::ComputePipeline>,
+    pub uses_surface: bool,
+}
+
+/// All pipelines of the update, for one kind.
+#[derive(Debug)]
+pub struct Passes {
+    pub(crate) surface_layout: wgpu::BindGroupLayout,
+    pub(crate) kind: Kind,
+    stages: Vec<(&'static str, Stage)>,
+}
+
+impl Passes {
+    /// Compiles the pipelines. Takes some tens of milliseconds a module; do it once a kind and share.
+    ///
+    /// # Errors
+    /// [`KeyleafError::Compose`] if a shader file is missing.
+    pub fn new(device: &wgpu::Device, kind: Kind) -> Result<Self, KeyleafError> {
+        let surface_layout = surface_layout(device, kind.has_heights);
+        let mut stages = Vec::new();
+        for module in modules(&kind) {
+            stages.push((module.name, stage(device, &module, &surface_layout)?));
+        }
+        Ok(Self { surface_layout, kind, stages })
+    }
+
+    /// The stage of a module that the kind has; `None` for one that it lacks.
+    pub(crate) fn stage(&self, name: &str) -> Option<&Stage> {
+        self.stages.iter().find(|(n, _)| *n == name).map(|(_, stage)| stage)
+    }
+}
+
+fn stage(device: &wgpu::Device, module: &Module, surface: &wgpu::BindGroupLayout) -> Result<Stage, KeyleafError> {
+    let label = format!("keyleaf.{}", module.name);
+    let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(&label),
+        source: wgpu::ShaderSource::Wgsl(compose(&module.files)?.into()),
+    });
+    let layout = binding::layout(device, &label, wgpu::ShaderStages::COMPUTE, module.bindings);
+    let groups = if module.uses_surface { vec![Some(&layout), Some(surface)] } else { vec![Some(&layout)] };
+    let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(&label),
+        bind_group_layouts: &groups,
+        immediate_size: 0,
+    });
+    let pipelines = module
+        .entries
+        .iter()
+        .map(|entry| {
+            device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(&format!("keyleaf.{entry}")),
+                layout: Some(&pipeline_layout),
+                module: &shader,
+                entry_point: Some(entry),
+                compilation_options: wgpu::PipelineCompilationOptions {
+                    zero_initialize_workgroup_memory: false, // every pass that has any sets it itself
+                    ..Default::default()
+                },
+                cache: None,
+            })
+        })
+        .collect();
+    Ok(Stage { layout, pipelines, uses_surface: module.uses_surface })
+}

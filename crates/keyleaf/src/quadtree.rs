@@ -1,0 +1,432 @@
+//! One surface with its quadtree: buffers by leaf, and the passes of a frame.
+//!
+//! # Theory
+//! Khoury's linear quadtree keeps only the leaves, each a key, and every frame splits and merges them in one parallel pass (Khoury
+//! 3.1.3: compute, copy, draw).
+//!
+//! # Changes versus the papers
+//! * Leaves keep their slot instead of being copied from list to list, and the surface's answers about a leaf are cached with it.
+//!   A frame costs a distance and some planes a leaf, whatever the surface; the surface is asked once in a leaf's life.
+//! * Neighbours are the leaves that are there, found in a hash table that only changes touch, not the wishes of neighbours.
+//! * The changes that a frame decides happen at the start of the next one, so that what is drawn is what was culled.
+//!
+//! # Practice: one pass
+//! | dispatch | invocations | does |
+//! |---|---|---|
+//! | `decide` | candidates | what was published → change records, requests |
+//! | `copy_changes` | 1 | arguments |
+//! | `apply` | changes | leaves, table |
+//! | `flag` | changes | pair flags about the changes |
+//! | `measure` | 4 a change | asks the surface about new leaves |
+//! | `copy_leaves` | 1 | the new count, arguments |
+//! | `match_slots`, `move_leaves` | freed slots | compaction |
+//! | `clear_table`, `enter_leaves` | entries, leaves | only when the table is too full |
+//! | `update` | 1 for 8 leaves | publishes wishes, culls, lists |
+//! | `copy_counts` | 1 | admission, pressure, arguments |
+
+use crate::binding;
+use crate::layout::{self, Control, Leaf, arguments, state};
+use crate::passes::{Kind, Passes, Stage};
+use crate::settings::Balance;
+use crate::statistics::{Statistics, StatisticsReader};
+use crate::surface_buffers::SurfaceBuffers;
+use crate::view::{Frame, View};
+use crate::{KeyleafError, Settings};
+use glam::{DAffine3, DVec3};
+use keyleaf_key::Place;
+use keyleaf_surface::Surface;
+use std::sync::Arc;
+
+/// Buffers whose size depends on the capacity, and the bind groups over them.
+#[derive(Debug)]
+pub(crate) struct Buffers {
+    pub frame: wgpu::Buffer,
+    pub leaves: wgpu::Buffer,
+    pub measures: wgpu::Buffer,
+    pub parents: wgpu::Buffer,
+    pub state: wgpu::Buffer,
+    pub lists: wgpu::Buffer,
+    pub table: wgpu::Buffer,
+    pub control: wgpu::Buffer,
+    pub arguments: wgpu::Buffer,
+}
+
+/// One surface with its quadtree.
+pub struct Quadtree {
+    passes: Arc<Passes>,
+    surface: Arc<dyn Surface>,
+    surface_buffers: SurfaceBuffers,
+    buffers: Buffers,
+    groups: Groups,
+    settings: Settings,
+    world_from_object: DAffine3,
+    reader: StatisticsReader,
+    needs_measure: bool,
+}
+
+struct Groups {
+    update: wgpu::BindGroup,
+    decide: wgpu::BindGroup,
+    apply: wgpu::BindGroup,
+    measure: wgpu::BindGroup,
+    compact: wgpu::BindGroup,
+    copy: wgpu::BindGroup,
+    rebuild: Option<wgpu::BindGroup>,
+}
+
+impl Quadtree {
+    /// The kind of pipelines that a surface with these settings needs.
+    pub fn kind(surface: &dyn Surface, settings: &Settings) -> Kind {
+        Kind {
+            surface: surface.shader(),
+            has_heights: surface.has_heights(),
+            metric: settings.metric.shader(),
+            balance: settings.balance,
+        }
+    }
+
+    /// A quadtree of the roots of `surface`, placed in the world by `world_from_object`.
+    ///
+    /// # Errors
+    /// Settings out of range, a capacity below the number of roots, or buffers beyond the limits of the device.
+    pub fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        passes: Arc<Passes>,
+        surface: Arc<dyn Surface>,
+        world_from_object: DAffine3,
+        settings: Settings,
+    ) -> Result<Self, KeyleafError> {
+        settings.validate()?;
+        check_capacity(device, surface.as_ref(), settings.capacity)?;
+        let surface_buffers = SurfaceBuffers::new(device, queue, &passes.surface_layout, surface.as_ref(), DVec3::ZERO)?;
+        let buffers = Buffers::new(device, settings.capacity);
+        let groups = Groups::new(device, &passes, &buffers);
+        let mut quadtree = Self {
+            passes,
+            surface,
+            surface_buffers,
+            buffers,
+            groups,
+            settings,
+            world_from_object,
+            reader: StatisticsReader::new(device),
+            needs_measure: true,
+        };
+        let roots: Vec<Place> = quadtree.surface.topology().roots().collect();
+        quadtree.write_leaves(queue, &roots);
+        Ok(quadtree)
+    }
+
+    /// The surface.
+    pub fn surface(&self) -> &Arc<dyn Surface> {
+        &self.surface
+    }
+
+    /// The present settings.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Where the object is in the world.
+    pub fn world_from_object(&self) -> &DAffine3 {
+        &self.world_from_object
+    }
+
+    /// Object-space point that positions on the GPU are relative to.
+    pub fn origin(&self) -> DVec3 {
+        self.surface_buffers.origin
+    }
+
+    /// Moves the object.
+    pub fn set_world_from_object(&mut self, world_from_object: DAffine3) {
+        self.world_from_object = world_from_object;
+    }
+
+    /// Changes settings that need no new buffers or pipelines.
+    ///
+    /// # Errors
+    /// Settings out of range, or another capacity, kind of metric or balance than the quadtree was made with.
+    pub fn set_settings(&mut self, settings: Settings) -> Result<(), KeyleafError> {
+        settings.validate()?;
+        let fixed = |setting, value: String| Err(KeyleafError::Setting { setting, value, expected: "fixed when the quadtree is made" });
+        if settings.capacity != self.settings.capacity {
+            return fixed("capacity", settings.capacity.to_string());
+        }
+        if settings.metric.shader() != self.settings.metric.shader() {
+            return fixed("metric", settings.metric.name().to_owned());
+        }
+        if settings.balance != self.settings.balance {
+            return fixed("balance", format!("{:?}", settings.balance));
+        }
+        self.needs_measure |= settings.max_level != self.settings.max_level || settings.base_grid != self.settings.base_grid;
+        self.settings = settings;
+        Ok(())
+    }
+
+    /// Starts again from a given set of leaves: a balanced quadtree, such as `read_back` gives. Wishes and requests are forgotten.
+    ///
+    /// # Errors
+    /// [`KeyleafError::Leaves`] if there are more than the capacity, or if they do not cover every root exactly once.
+    pub fn set_leaves(&mut self, queue: &wgpu::Queue, leaves: &[Place]) -> Result<(), KeyleafError> {
+        if leaves.len() > self.settings.capacity as usize {
+            return Err(KeyleafError::Leaves(format!("{} leaves exceed the capacity of {}", leaves.len(), self.settings.capacity)));
+        }
+        let mut area = std::collections::HashMap::new();
+        for leaf in leaves {
+            if !self.surface.topology().has_root(leaf.face, leaf.root) || !leaf.is_valid() {
+                return Err(KeyleafError::Leaves(format!("{leaf:?} is no node of this surface")));
+            }
+            *area.entry((leaf.face, leaf.root)).or_insert(0u64) += 1u64 << (62 - 2 * leaf.level);
+        }
+        let roots = self.surface.topology().half_edge_count() as usize;
+        if area.len() != roots || area.values().any(|a| *a != 1 << 62) {
+            return Err(KeyleafError::Leaves("some root is not covered exactly once".to_owned()));
+        }
+        self.write_leaves(queue, leaves);
+        Ok(())
+    }
+
+    fn write_leaves(&mut self, queue: &wgpu::Queue, leaves: &[Place]) {
+        let records: Vec<Leaf> = leaves.iter().map(Leaf::new).collect();
+        let states: Vec<u32> = leaves
+            .iter()
+            .map(|p| state::FRESH | (p.digit().unwrap_or(state::ROOT_DIGIT) << state::DIGIT_SHIFT))
+            .collect();
+        queue.write_buffer(&self.buffers.leaves, 0, bytemuck::cast_slice(&records));
+        queue.write_buffer(&self.buffers.state, 0, bytemuck::cast_slice(&states));
+        let requests = vec![0u32; leaves.len()];
+        queue.write_buffer(&self.buffers.state, 4 * u64::from(self.settings.capacity), bytemuck::cast_slice(&requests));
+        let control = Control {
+            leaves: leaves.len() as u32,
+            allocated: leaves.len() as u32,
+            ..Control::default()
+        };
+        queue.write_buffer(&self.buffers.control, 0, bytemuck::bytes_of(&control));
+        let mut words = [0u32; (arguments::SIZE / 4) as usize];
+        let mut put = |at: u64, groups: [u32; 3]| words[(at / 4) as usize..][..3].copy_from_slice(&groups);
+        let count = leaves.len() as u32;
+        // The first update clears and fills the table, and measures all leaves, before anything is decided.
+        put(arguments::LEAVES, layout::groups_for(count, layout::GROUP_SIZE));
+        put(arguments::ENTER, layout::groups_for(count, layout::GROUP_SIZE));
+        put(arguments::CLEAR, layout::groups_for(layout::table_entries(self.settings.capacity), 4 * layout::GROUP_SIZE));
+        queue.write_buffer(&self.buffers.arguments, 0, bytemuck::cast_slice(&words));
+        self.needs_measure = true;
+        self.reader.forget();
+    }
+
+    /// Records the passes of a frame for a view: `settings.settle` of them. Nothing is submitted, nothing waits.
+    pub fn update(&mut self, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder, view: &View) {
+        self.update_timed(queue, encoder, view, None);
+    }
+
+    /// As [`Quadtree::update`], with timestamps written at the begin and end of the compute pass.
+    pub fn update_timed(
+        &mut self,
+        queue: &wgpu::Queue,
+        encoder: &mut wgpu::CommandEncoder,
+        view: &View,
+        timestamps: Option<wgpu::ComputePassTimestampWrites<'_>>,
+    ) {
+        self.follow(queue, view);
+        let frame = Frame::new(view, &self.world_from_object, self.surface_buffers.origin, &self.settings);
+        let mut bytes = encase::UniformBuffer::new(Vec::new());
+        if bytes.write(&frame).is_ok() {
+            queue.write_buffer(&self.buffers.frame, 0, &bytes.into_inner());
+        }
+        {
+            let descriptor = wgpu::ComputePassDescriptor { label: Some("keyleaf.update"), timestamp_writes: timestamps };
+            let mut pass = encoder.begin_compute_pass(&descriptor);
+            if std::mem::take(&mut self.needs_measure) {
+                self.measure_all(&mut pass);
+            }
+            for _ in 0..self.settings.settle {
+                self.one_pass(&mut pass);
+            }
+        }
+        self.reader.record(encoder, &self.buffers.control);
+    }
+
+    /// Moves the origin when the eye is so far from it that f32 would be seen, in object space.
+    fn follow(&mut self, queue: &wgpu::Queue, view: &View) {
+        let eye = self.world_from_object.inverse().transform_point3(view.eye);
+        let cell = view.origin_cell() / self.world_from_object.matrix3.determinant().abs().cbrt().max(f64::MIN_POSITIVE);
+        let (least, most) = self.surface.bounding_box();
+        let nearest = eye.clamp(least, most);
+        if (nearest - self.surface_buffers.origin).abs().max_element() > cell {
+            // Far outside the object the origin stays: there is nothing near to be exact about.
+            let origin = (nearest / cell).round() * cell;
+            if origin != self.surface_buffers.origin {
+                self.surface_buffers.move_origin(queue, self.surface.as_ref(), origin);
+                self.needs_measure = true;
+            }
+        }
+    }
+
+    /// Table, flags and measures of all leaves.
+    fn measure_all(&self, pass: &mut wgpu::ComputePass<'_>) {
+        self.dispatch(pass, "measure", 1, &self.groups.measure, arguments::LEAVES);
+        if let Some(rebuild) = &self.groups.rebuild {
+            self.dispatch(pass, "rebuild", 0, rebuild, arguments::CLEAR);
+            self.dispatch(pass, "rebuild", 1, rebuild, arguments::ENTER);
+            self.dispatch(pass, "flag", 1, &self.groups.decide, arguments::LEAVES);
+        }
+    }
+
+    fn one_pass(&self, pass: &mut wgpu::ComputePass<'_>) {
+        self.dispatch(pass, "decide", 0, &self.groups.decide, arguments::DECIDE);
+        self.dispatch_one(pass, "copy", 0, &self.groups.copy);
+        self.dispatch(pass, "apply", 0, &self.groups.apply, arguments::CHANGES);
+        if self.passes.kind.balance == Balance::Table {
+            self.dispatch(pass, "flag", 0, &self.groups.decide, arguments::CHANGES);
+        }
+        self.dispatch(pass, "measure", 0, &self.groups.measure, arguments::MEASURE);
+        self.dispatch_one(pass, "copy", 1, &self.groups.copy);
+        self.dispatch(pass, "compact", 0, &self.groups.compact, arguments::COMPACT);
+        self.dispatch(pass, "compact", 1, &self.groups.compact, arguments::COMPACT);
+        if let Some(rebuild) = &self.groups.rebuild {
+            self.dispatch(pass, "rebuild", 0, rebuild, arguments::CLEAR);
+            self.dispatch(pass, "rebuild", 1, rebuild, arguments::ENTER);
+        }
+        self.dispatch(pass, "update", 0, &self.groups.update, arguments::UPDATE);
+        self.dispatch_one(pass, "copy", 2, &self.groups.copy);
+    }
+
+    fn bind<'a>(&'a self, pass: &mut wgpu::ComputePass<'_>, name: &str, entry: usize, group: &wgpu::BindGroup) -> Option<&'a Stage> {
+        let stage = self.passes.stage(name)?;
+        pass.set_pipeline(stage.pipelines.get(entry)?);
+        pass.set_bind_group(0, group, &[]);
+        if stage.uses_surface {
+            pass.set_bind_group(1, &self.surface_buffers.group, &[]);
+        }
+        Some(stage)
+    }
+
+    fn dispatch(&self, pass: &mut wgpu::ComputePass<'_>, name: &str, entry: usize, group: &wgpu::BindGroup, at: u64) {
+        if self.bind(pass, name, entry, group).is_some() {
+            pass.dispatch_workgroups_indirect(&self.buffers.arguments, at);
+        }
+    }
+
+    fn dispatch_one(&self, pass: &mut wgpu::ComputePass<'_>, name: &str, entry: usize, group: &wgpu::BindGroup) {
+        if self.bind(pass, name, entry, group).is_some() {
+            pass.dispatch_workgroups(1, 1, 1);
+        }
+    }
+
+    /// The latest figures that have arrived: some frames late, `None` before the first. The device must be polled now and then,
+    /// as submitting does.
+    pub fn statistics(&mut self) -> Option<Statistics> {
+        self.reader.latest(&self.settings)
+    }
+
+    /// (name, bytes) of every buffer and texture.
+    pub fn memory(&self) -> Vec<(&'static str, u64)> {
+        let mut all = layout::buffer_bytes(self.settings.capacity).to_vec();
+        all.push(("frame", self.buffers.frame.size()));
+        all.push(("control", self.buffers.control.size()));
+        all.push(("arguments", self.buffers.arguments.size()));
+        all.extend(self.surface_buffers.sizes.iter().copied());
+        all
+    }
+
+    pub(crate) fn buffers(&self) -> &Buffers {
+        &self.buffers
+    }
+
+    pub(crate) fn surface_group(&self) -> &wgpu::BindGroup {
+        &self.surface_buffers.group
+    }
+
+    /// The pipelines that it was made with.
+    pub fn passes(&self) -> &Arc<Passes> {
+        &self.passes
+    }
+}
+
+fn check_capacity(device: &wgpu::Device, surface: &dyn Surface, capacity: u32) -> Result<(), KeyleafError> {
+    let roots = surface.topology().half_edge_count();
+    if capacity < roots {
+        return Err(KeyleafError::CapacityBelowRoots { capacity, roots });
+    }
+    let limits = device.limits();
+    let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
+    for (buffer, bytes) in layout::buffer_bytes(capacity) {
+        if bytes > limit {
+            let mut most = capacity;
+            while layout::buffer_bytes(most).iter().any(|(_, b)| *b > limit) {
+                most -= (most / 64).max(1);
+            }
+            return Err(KeyleafError::BeyondLimits { buffer, what: "leaves", items: capacity.into(), bytes, limit, most: most.into() });
+        }
+    }
+    Ok(())
+}
+
+impl Buffers {
+    fn new(device: &wgpu::Device, capacity: u32) -> Self {
+        use wgpu::BufferUsages as U;
+        let make = |label: &str, size: u64, usage: U| {
+            device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
+        };
+        let storage = U::STORAGE | U::COPY_DST | U::COPY_SRC;
+        let sized = |name: &str| {
+            let bytes = layout::buffer_bytes(capacity).iter().find(|(n, _)| *n == name).map_or(16, |(_, b)| (*b).max(16));
+            make(&format!("keyleaf.{name}"), bytes, storage)
+        };
+        use encase::ShaderType;
+        Self {
+            frame: make("keyleaf.frame", Frame::min_size().get(), U::UNIFORM | U::COPY_DST),
+            leaves: sized("leaves"),
+            measures: sized("measures"),
+            parents: sized("parents"),
+            state: sized("state"),
+            lists: sized("lists"),
+            table: sized("table"),
+            control: make("keyleaf.control", size_of::<Control>() as u64, storage),
+            arguments: make("keyleaf.arguments", arguments::SIZE, storage | U::INDIRECT),
+        }
+    }
+}
+
+impl Groups {
+    fn new(device: &wgpu::Device, passes: &Passes, b: &Buffers) -> Self {
+        let group = |name: &str, buffers: &[(u32, &wgpu::Buffer)]| {
+            passes.stage(name).map(|stage| {
+                let resources: Vec<_> = buffers.iter().map(|(n, buffer)| (*n, buffer.as_entire_binding())).collect();
+                binding::group(device, &format!("keyleaf.{name}"), &stage.layout, &resources)
+            })
+        };
+        let required = |name: &str, buffers: &[(u32, &wgpu::Buffer)]| {
+            group(name, buffers).unwrap_or_else(|| unreachable!("every kind has the module {name}"))
+        };
+        let leaves_on = [(0, &b.frame), (1, &b.leaves), (2, &b.table), (3, &b.state), (4, &b.lists), (5, &b.control)];
+        Self {
+            update: required(
+                "update",
+                &[(0, &b.frame), (1, &b.measures), (2, &b.parents), (3, &b.state), (4, &b.lists), (5, &b.control)],
+            ),
+            decide: required("decide", &leaves_on),
+            apply: required("apply", &leaves_on),
+            measure: required(
+                "measure",
+                &[(0, &b.frame), (1, &b.leaves), (2, &b.measures), (3, &b.parents), (4, &b.lists), (5, &b.control)],
+            ),
+            compact: required(
+                "compact",
+                &[
+                    (0, &b.frame),
+                    (1, &b.leaves),
+                    (2, &b.table),
+                    (3, &b.state),
+                    (4, &b.lists),
+                    (5, &b.control),
+                    (6, &b.measures),
+                    (7, &b.parents),
+                ],
+            ),
+            copy: required("copy", &[(0, &b.frame), (1, &b.control), (2, &b.arguments)]),
+            rebuild: group("rebuild", &[(0, &b.frame), (1, &b.leaves), (2, &b.table), (5, &b.control)]),
+        }
+    }
+}

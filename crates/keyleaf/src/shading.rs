@@ -1,0 +1,186 @@
+//! Light and material: which effects a scene names, and their uniform.
+
+use crate::View;
+use encase::ShaderType;
+use glam::{Mat4, Vec3, Vec4};
+
+/// Colour of the surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Material {
+    /// One colour.
+    #[default]
+    Plain,
+    /// Grass, rock and snow by height and slope.
+    Terrain,
+    /// Normals and colours at the corners of the mesh.
+    Attributes,
+    /// The same, and a base-colour texture.
+    Texture,
+}
+
+/// What is drawn over the lit surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Overlay {
+    /// Nothing.
+    #[default]
+    None,
+    /// Level of each leaf as a tint.
+    Level,
+    /// Edges of the triangles.
+    Wireframe,
+    /// Both.
+    LevelWireframe,
+}
+
+impl Overlay {
+    /// The overlay that shows what is asked for.
+    pub fn of(level: bool, wireframe: bool) -> Self {
+        match (level, wireframe) {
+            (false, false) => Self::None,
+            (true, false) => Self::Level,
+            (false, true) => Self::Wireframe,
+            (true, true) => Self::LevelWireframe,
+        }
+    }
+}
+
+/// Air between surface and eye.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Atmosphere {
+    /// Clear.
+    #[default]
+    None,
+    /// Haze that grows with distance.
+    Haze,
+}
+
+/// What a draw writes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Channel {
+    /// The picture.
+    Colour(Material, Overlay, Atmosphere),
+    /// World normals, n / 2 + 1 / 2.
+    Normal,
+    /// Levels as colours.
+    Level,
+    /// World positions relative to the eye, as floats.
+    Position,
+}
+
+impl Channel {
+    /// WGSL files of the draw, without those that they require and without the surface.
+    pub fn files(&self) -> Vec<&'static str> {
+        match self {
+            Self::Normal => vec!["draw/normal.wgsl"],
+            Self::Level => vec!["draw/level.wgsl"],
+            Self::Position => vec!["draw/position.wgsl"],
+            Self::Colour(material, overlay, atmosphere) => vec![
+                "draw/colour.wgsl",
+                match material {
+                    Material::Plain => "effects/material_plain.wgsl",
+                    Material::Terrain => "effects/material_terrain.wgsl",
+                    Material::Attributes => "effects/material_attributes.wgsl",
+                    Material::Texture => "effects/material_texture.wgsl",
+                },
+                match overlay {
+                    Overlay::None => "effects/overlay_none.wgsl",
+                    Overlay::Level => "effects/overlay_level.wgsl",
+                    Overlay::Wireframe => "effects/overlay_wireframe.wgsl",
+                    Overlay::LevelWireframe => "effects/overlay_level_wireframe.wgsl",
+                },
+                match atmosphere {
+                    Atmosphere::None => "effects/atmosphere_none.wgsl",
+                    Atmosphere::Haze => "effects/atmosphere_haze.wgsl",
+                },
+            ],
+        }
+    }
+
+    /// Whether corners of the mesh have attributes in this channel.
+    pub fn has_attributes(&self) -> bool {
+        matches!(self, Self::Colour(Material::Attributes | Material::Texture, ..))
+    }
+
+    /// Whether there is a texture in this channel.
+    pub fn has_texture(&self) -> bool {
+        matches!(self, Self::Colour(Material::Texture, ..))
+    }
+}
+
+/// The uniform of `shaders/shared/shading.wgsl`. Colours are linear.
+#[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
+pub struct Shading {
+    /// World.
+    pub eye: Vec3,
+    /// Times the colour.
+    pub sun_intensity: f32,
+    /// Towards the sun, world, unit.
+    pub sun_direction: Vec3,
+    /// Of the sky, as a factor.
+    pub ambient: f32,
+    /// Of the sun.
+    pub sun_colour: Vec3,
+    /// A world unit; 0: clear.
+    pub fog_density: f32,
+    /// Of the surface.
+    pub base_colour: Vec3,
+    /// Of the wireframe, pixels.
+    pub line_width: f32,
+    /// Of the sky.
+    pub zenith: Vec3,
+    /// Lowest height of the scene, world units.
+    pub lowest: f32,
+    /// Of the sky.
+    pub horizon: Vec3,
+    /// Highest height of the scene, world units.
+    pub highest: f32,
+    /// Below the horizon.
+    pub ground: Vec3,
+    /// Of the tone curve.
+    pub exposure: f32,
+    /// Of the wireframe, with its opacity.
+    pub line_colour: Vec4,
+}
+
+impl Default for Shading {
+    fn default() -> Self {
+        Self {
+            eye: Vec3::ZERO,
+            sun_intensity: 3.2,
+            sun_direction: Vec3::new(0.45, 0.62, 0.64).normalize(),
+            ambient: 0.85,
+            sun_colour: Vec3::new(1.0, 0.94, 0.84),
+            fog_density: 0.0,
+            base_colour: Vec3::splat(0.55),
+            line_width: 1.25,
+            zenith: Vec3::new(0.16, 0.33, 0.66),
+            lowest: 0.0,
+            horizon: Vec3::new(0.62, 0.74, 0.86),
+            highest: 1.0,
+            ground: Vec3::new(0.20, 0.18, 0.16),
+            exposure: 0.75,
+            line_colour: Vec4::new(0.02, 0.03, 0.05, 0.85),
+        }
+    }
+}
+
+/// The uniform of `shaders/draw/sky.wgsl`.
+#[derive(Debug, Clone, Copy, PartialEq, ShaderType)]
+pub struct Background {
+    /// World directions from clip space: where the ray through a pixel goes.
+    pub world_from_clip: Mat4,
+}
+
+impl Background {
+    /// The rays of a view. A parallel projection sees one direction everywhere.
+    pub fn new(view: &View) -> Self {
+        let rotation = Mat4::from_quat(view.orientation.as_quat());
+        let tangent = match view.projection {
+            crate::Projection::Perspective { fov_y, .. } => (fov_y / 2.0).tan(),
+            crate::Projection::Orthographic { .. } => 0.0,
+        };
+        let (x, y) = ((tangent * view.aspect()) as f32, tangent as f32);
+        let rays = Mat4::from_cols(x * Vec4::X, y * Vec4::Y, Vec4::ZERO, -Vec4::Z);
+        Self { world_from_clip: rotation * rays }
+    }
+}

@@ -1,0 +1,5 @@
+// Clear air.
+
+fn atmosphere(colour: vec3f, position: vec3f) -> vec3f {
+    return colour;
+}

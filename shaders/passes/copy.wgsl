@@ -1,0 +1,155 @@
+// Turns counts into arguments (Khoury 3.1.3, copy pass), three times a frame, with one invocation: after `decide`, after `apply`,
+// and after `update`, where it also admits wishes and keeps the pressure (DESIGN section 4; twin: keyleaf-key `pressure`).
+// Only this pass writes the indirect arguments.
+// requires: shared/leaf.wgsl, shared/control.wgsl, shared/frame.wgsl
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+@group(0) @binding(1) var<storage, read_write> control: Control;
+@group(0) @binding(2) var<storage, read_write> arguments: array<u32>;
+
+// Where each dispatch finds its three words. Rust: keyleaf `quadtree::layout`.
+const FOR_DECIDE: u32 = 0u;
+const FOR_CHANGES: u32 = 4u;
+const FOR_MEASURE: u32 = 8u;
+const FOR_COMPACT: u32 = 12u;
+const FOR_CLEAR: u32 = 16u;
+const FOR_ENTER: u32 = 20u;
+const FOR_UPDATE: u32 = 24u;
+const FOR_LEAVES: u32 = 28u; // an invocation a leaf
+const FOR_DRAW: u32 = 32u;   // index count, instance count, first index, base vertex, first instance
+
+const GROUP_SIZE: u32 = 64u;
+const UPDATE_LEAVES: u32 = 512u; // that a workgroup of `update` takes
+const MAX_GROUPS: u32 = 65535u;  // a dimension, by WebGPU's limits
+
+// Patience before the pressure changes, in passes without a change (model: Pressure).
+const IDLE_PASSES: u32 = 3u;
+// A step of 2^(1/4), in sixteenths of an octave.
+const PRESSURE_STEP: i32 = 4;
+
+fn groups_for(items: u32, group: u32, at: u32) {
+    let groups = (items + group - 1u) / group;
+    let rows = (groups + MAX_GROUPS - 1u) / MAX_GROUPS;
+    arguments[at] = select((groups + rows - 1u) / max(rows, 1u), 0u, groups == 0u);
+    arguments[at + 1u] = max(rows, 1u);
+    arguments[at + 2u] = 1u;
+}
+
+@compute @workgroup_size(1)
+fn copy_changes() {
+    let changes = atomicLoad(&control.changes);
+    groups_for(changes, GROUP_SIZE, FOR_CHANGES);
+    groups_for(4u * changes, GROUP_SIZE, FOR_MEASURE);
+    atomicStore(&control.allocated, control.leaves);
+    atomicStore(&control.splits, 0u);
+    atomicStore(&control.merges, 0u);
+    atomicStore(&control.freed, 0u);
+    atomicStore(&control.sources, 0u);
+    atomicStore(&control.targets, 0u);
+}
+
+@compute @workgroup_size(1)
+fn copy_leaves() {
+    let freed = atomicLoad(&control.freed);
+    let leaves = atomicLoad(&control.allocated) - freed;
+    control.leaves = leaves;
+    groups_for(freed, GROUP_SIZE, FOR_COMPACT);
+    groups_for(leaves, UPDATE_LEAVES, FOR_UPDATE);
+    groups_for(leaves, GROUP_SIZE, FOR_LEAVES);
+    // Live entries and tombstones above 70 %: start afresh. (Written so that it does not overflow.)
+    let entries = frame.table_mask + 1u;
+    let full = atomicLoad(&control.entries_used) > entries / 10u * 7u;
+    groups_for(select(0u, entries, full), 4u * GROUP_SIZE, FOR_CLEAR);
+    groups_for(select(0u, leaves, full), GROUP_SIZE, FOR_ENTER);
+    if full {
+        atomicStore(&control.entries_used, 0u);
+        control.rebuilds += 1u;
+    }
+    control.last_splits = atomicLoad(&control.splits);
+    control.last_merges = atomicLoad(&control.merges);
+    atomicStore(&control.changes, 0u);
+    // Counted by the update that follows. The requests that `decide` raised stay until it has folded them in.
+    atomicStore(&control.visible, 0u);
+    atomicStore(&control.candidates, 0u);
+    atomicStore(&control.near, 0u);
+    atomicStore(&control.metric_wishes, 0u);
+    for (var b = 0u; b < BUCKETS; b++) {
+        atomicStore(&control.wishes[b], 0u);
+    }
+}
+
+// Whole buckets from the top, as long as three more slots a wish fit: both halves of a diamond get the same answer.
+fn admit() {
+    var free = frame.capacity - control.leaves;
+    var lowest = BUCKETS;
+    var unmet = 0u;
+    var starved = 0u;
+    var fits = true;
+    for (var i = 0u; i < BUCKETS; i++) {
+        let bucket = BUCKETS - 1u - i;
+        let count = atomicLoad(&control.wishes[bucket]);
+        unmet += count;
+        fits = fits && count <= free / 3u;
+        if fits && count > 0u {
+            free -= 3u * count;
+            lowest = bucket;
+        }
+        if !fits {
+            starved += count;
+        }
+    }
+    control.lowest_bucket = lowest;
+    control.unmet = unmet;
+    control.starved = starved;
+}
+
+// Raises the threshold while wishes do not fit, and lowers it when those of the next lower step would.
+fn observe_starvation() {
+    let changed = control.last_splits + control.last_merges != 0u;
+    control.idle = select(control.idle + 1u, 0u, changed);
+    if control.idle < IDLE_PASSES {
+        return;
+    }
+    if control.starved > 0u && atomicLoad(&control.metric_wishes) > 0u {
+        control.pressure += PRESSURE_STEP;
+        control.idle = 0u;
+    } else if frame.target_leaves == 0u && control.pressure > 0
+        && atomicLoad(&control.near) <= (frame.capacity - control.leaves) / 6u {
+        control.pressure = max(control.pressure - PRESSURE_STEP, 0);
+        control.idle = 0u;
+    }
+}
+
+// Steers the same threshold, in steps of a sixteenth of an octave (about 9 % of the leaves), while the count is off by more.
+fn observe_target() {
+    if frame.target_leaves == 0u || control.passes % 2u != 0u {
+        return;
+    }
+    let ratio = f32(control.leaves) / f32(frame.target_leaves);
+    if ratio > 1.05 {
+        control.pressure += 1;
+    } else if ratio < 0.95 && control.starved == 0u {
+        control.pressure = max(control.pressure - 1, MIN_PRESSURE);
+    }
+}
+
+// 2^-8 times the threshold: finer than any target needs.
+const MIN_PRESSURE: i32 = -128;
+
+@compute @workgroup_size(1)
+fn copy_counts() {
+    let visible = atomicLoad(&control.visible);
+    let candidates = atomicLoad(&control.candidates);
+    groups_for(candidates, GROUP_SIZE, FOR_DECIDE);
+    let across = 1u << frame.base_grid;
+    arguments[FOR_DRAW] = 3u * across * across;
+    arguments[FOR_DRAW + 1u] = visible;
+    arguments[FOR_DRAW + 2u] = 0u;
+    arguments[FOR_DRAW + 3u] = 0u;
+    arguments[FOR_DRAW + 4u] = 0u;
+    atomicStore(&control.requests, 0u);
+    admit();
+    observe_starvation();
+    observe_target();
+    control.passes += 1u;
+}

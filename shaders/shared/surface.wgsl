@@ -1,0 +1,16 @@
+// What every surface module answers with. Positions are in object space, relative to the surface's present origin.
+
+struct SurfaceFrame {
+    position: vec3f,
+    du: vec3f,
+    dv: vec3f,
+    normal: vec3f,
+}
+
+// Bounds of the diamond of a leaf (the leaf and its H-neighbour), in object units.
+struct SurfaceBound {
+    centre: vec3f, // of the hypotenuse, on the surface
+    radius: f32,   // ball that contains the surface over the diamond: for culling
+    size: f32,     // half the length of the drawn hypotenuse, from above; never grows from parent to child: for metrics
+    guard: f32,    // ball that contains the guard balls of the children: for the guard band
+}

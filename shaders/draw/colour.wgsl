@@ -1,5 +1,5 @@
-// The picture: material, light, overlay, atmosphere, tone. Each of the first four is a file of its own, chosen by the scene.
-// requires: shared/shading.wgsl, shared/tone.wgsl, shared/sky_colour.wgsl
+// The picture: material, light, overlay, atmosphere, tone. All but the light are files of their own, chosen by the scene.
+// requires: shared/shading.wgsl, shared/tone.wgsl
 
 @fragment
 fn fragment(v: Varying, @builtin(front_facing) front: bool) -> @location(0) vec4f {
@@ -8,12 +8,11 @@ fn fragment(v: Varying, @builtin(front_facing) front: bool) -> @location(0) vec4
     return vec4f(tone(atmosphere(overlay(lit, v), v.position)), 1.0);
 }
 
-// Lambert under a sun and a sky, with a soft highlight that keeps plain surfaces readable.
+// Lambert under a sun and a sky that is brighter above than below, with a soft highlight that keeps plain surfaces readable.
 fn light(albedo: vec3f, normal: vec3f, to_eye: vec3f) -> vec3f {
-    let sun = max(dot(normal, shading.sun_direction), 0.0) * shading.sun_intensity * shading.sun_colour;
-    let up = normal.y * 0.5 + 0.5;
-    let sky = mix(shading.ground, mix(shading.horizon, shading.zenith, up), up) * shading.ambient;
+    let facing = dot(normal, shading.sun_direction);
+    let sky = shading.ambient * (0.65 + 0.35 * normal.y);
     let half_way = normalize(shading.sun_direction + to_eye);
-    let highlight = pow(max(dot(normal, half_way), 0.0), 32.0) * 0.04 * shading.sun_intensity;
-    return albedo * (sun + sky) + highlight * shading.sun_colour * step(0.0, dot(normal, shading.sun_direction));
+    let highlight = 0.03 * pow(max(dot(normal, half_way), 0.0), 32.0) * step(0.0, facing);
+    return albedo * (shading.sun_colour * max(facing, 0.0) + sky) + highlight * shading.sun_colour;
 }

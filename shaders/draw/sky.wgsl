@@ -23,5 +23,5 @@ fn sky_vertex(@builtin(vertex_index) index: u32) -> SkyVarying {
 fn sky_fragment(v: SkyVarying) -> @location(0) vec4f {
     let direction = normalize(v.direction);
     let disc = smoothstep(0.99985, 0.99995, dot(direction, shading.sun_direction));
-    return vec4f(tone(sky_colour(direction) + disc * shading.sun_colour * shading.sun_intensity * 4.0), 1.0);
+    return vec4f(tone(sky_colour(direction) + disc * shading.sun_colour * 6.0), 1.0);
 }

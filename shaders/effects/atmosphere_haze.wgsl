@@ -1,9 +1,9 @@
-// Exponential haze in the colour of the sky behind.
-// requires: shared/shading.wgsl, shared/sky_colour.wgsl
+// Exponential haze of one colour, a little warmer towards the sun.
+// requires: shared/shading.wgsl
 
 fn atmosphere(colour: vec3f, position: vec3f) -> vec3f {
     let distance = length(position);
-    let direction = position / max(distance, 1e-20);
-    let behind = sky_colour(normalize(vec3f(direction.x, max(direction.y, 0.02), direction.z)));
-    return mix(behind, colour, exp(-distance * shading.fog_density));
+    let to_sun = max(dot(position, shading.sun_direction) / max(distance, 1e-20), 0.0);
+    let haze = shading.fog_colour + 0.06 * pow(to_sun, 8.0) * shading.sun_colour;
+    return mix(haze, colour, exp(-distance * shading.fog_density));
 }

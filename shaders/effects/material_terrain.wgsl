@@ -1,4 +1,4 @@
-// Grass, dry slopes, rock and snow, by height and slope, with edges broken up by a little noise.
+// Low and high ground, rock where it is steep, snow above its line; edges broken up by a little noise.
 // requires: shared/shading.wgsl, draw/varying.wgsl
 
 fn lattice(cell: vec2i) -> f32 {
@@ -18,13 +18,12 @@ fn material(v: Varying, normal: vec3f) -> vec3f {
     let range = max(shading.highest - shading.lowest, 1e-6);
     let scale = 24.0 / range;
     let rough = patchiness(world.xz * scale) * 0.5 + patchiness(world.xz * scale * 3.7) * 0.3 + patchiness(world.xz * scale * 11.3) * 0.2 - 0.5;
-    let height = saturate((world.y - shading.lowest) / range) + rough * 0.16;
-    let slope = 1.0 - normal.y + rough * 0.06;
-    let grass = mix(vec3f(0.075, 0.115, 0.035), vec3f(0.16, 0.17, 0.06), saturate(rough + 0.5));
-    let dry = vec3f(0.27, 0.215, 0.125);
-    let rock = mix(vec3f(0.19, 0.17, 0.15), vec3f(0.30, 0.275, 0.25), saturate(rough + 0.5));
-    var ground = mix(grass, dry, smoothstep(0.25, 0.6, height));
-    ground = mix(ground, rock, smoothstep(0.6, 0.8, height));
-    ground = mix(ground, vec3f(0.82, 0.86, 0.92), smoothstep(0.84, 0.93, height) * smoothstep(0.5, 0.3, slope));
-    return mix(ground, rock, smoothstep(0.18, 0.36, slope));
+    let slope = sqrt(max(1.0 - normal.y * normal.y, 0.0)) / max(normal.y, 1e-3) * (1.0 + 0.5 * rough);
+    let height = (world.y - shading.lowest) / range + 0.2 * rough;
+    let ground = mix(shading.low, shading.high, smoothstep(0.0, 1.0, height)) * (1.0 + 0.25 * rough);
+    let rock = mix(ground, shading.steep * (1.0 + 0.3 * rough), smoothstep(shading.gentle, shading.steepest, slope));
+    let snow_line = shading.snow_line + 0.12 * rough * range;
+    let lies = smoothstep(snow_line - 0.03 * range, snow_line + 0.03 * range, world.y)
+        * (1.0 - smoothstep(shading.gentle, shading.steepest * 1.4, slope));
+    return mix(rock, shading.snow, lies);
 }

@@ -22,8 +22,10 @@ const GROUP_SIZE: u32 = 64u;
 const UPDATE_LEAVES: u32 = 512u; // that a workgroup of `update` takes
 const MAX_GROUPS: u32 = 65535u;  // a dimension, by WebGPU's limits
 
-// Patience before the pressure changes, in passes without a change (model: Pressure).
+// Patience before the pressure changes: passes without a change, or, while the camera moves, passes since its last step.
 const IDLE_PASSES: u32 = 3u;
+const PASSES_IN_MOTION: u32 = 16u;
+const NO_FAILURE: i32 = -1;
 // A step of 2^(1/4), in sixteenths of an octave.
 const PRESSURE_STEP: i32 = 4;
 
@@ -72,7 +74,6 @@ fn copy_leaves() {
     atomicStore(&control.visible, 0u);
     atomicStore(&control.candidates, 0u);
     atomicStore(&control.near, 0u);
-    atomicStore(&control.metric_wishes, 0u);
     for (var b = 0u; b < BUCKETS; b++) {
         atomicStore(&control.wishes[b], 0u);
     }
@@ -103,21 +104,39 @@ fn admit() {
     control.starved = starved;
 }
 
-// Raises the threshold while wishes do not fit, and lowers it when those of the next lower step would.
+// Raises the threshold while wishes do not fit, and lowers it while those of the next lower step do. A step that failed is not tried
+// again for the same view, so that the pressure ends where it would from a fresh start.
 fn observe_starvation() {
     let changed = control.last_splits + control.last_merges != 0u;
     control.idle = select(control.idle + 1u, 0u, changed);
-    if control.idle < IDLE_PASSES {
+    control.since_step += 1u;
+    if control.view_serial != frame.view_serial {
+        control.view_serial = frame.view_serial;
+        control.failed = NO_FAILURE;
+        control.idle = 0u;
+    }
+    let is_calm = control.idle >= IDLE_PASSES;
+    if !is_calm && control.since_step < PASSES_IN_MOTION {
         return;
     }
-    if control.starved > 0u && atomicLoad(&control.metric_wishes) > 0u {
-        control.pressure += PRESSURE_STEP;
-        control.idle = 0u;
-    } else if frame.target_leaves == 0u && control.pressure > 0
-        && atomicLoad(&control.near) <= (frame.capacity - control.leaves) / 6u {
-        control.pressure = max(control.pressure - PRESSURE_STEP, 0);
-        control.idle = 0u;
+    if control.starved > 0u {
+        control.failed = select(NO_FAILURE, control.pressure, is_calm);
+        press(control.pressure + PRESSURE_STEP);
+    } else if frame.target_leaves == 0u && control.pressure > 0 {
+        let lower = max(control.pressure - PRESSURE_STEP, 0);
+        let room = (frame.capacity - control.leaves) / 3u;
+        let near = atomicLoad(&control.near);
+        // In motion there is no time to try: only what fits twice over.
+        if select(near <= room / 2u, near <= room && control.failed != lower, is_calm) {
+            press(lower);
+        }
     }
+}
+
+fn press(pressure: i32) {
+    control.pressure = pressure;
+    control.idle = 0u;
+    control.since_step = 0u;
 }
 
 // Steers the same threshold, in steps of a sixteenth of an octave (about 9 % of the leaves), while the count is off by more.

@@ -3,7 +3,7 @@
 //
 // A leaf and, for child 0, its parent go through the same call in turn: the same node must get the same bits in both roles, or a
 // merge could be undone by the next pass.
-// requires: shared/neighbour.wgsl, shared/leaf.wgsl, shared/control.wgsl, shared/frame.wgsl, shared/surface.wgsl, shared/balance.wgsl
+// requires: shared/neighbour.wgsl, shared/leaf.wgsl, shared/control.wgsl, shared/frame.wgsl, shared/surface.wgsl
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 @group(0) @binding(1) var<storage, read> leaves: array<Leaf>;

@@ -5,7 +5,7 @@
 // words written; nothing is evaluated, decoded or looked up. Decisions follow in `decide`, from what all have published.
 //
 // An invocation takes LEAVES_PER_INVOCATION leaves, so that barriers and the two global atomics serve 512 leaves at once.
-// requires: shared/leaf.wgsl, shared/control.wgsl, shared/frame.wgsl, shared/balance.wgsl
+// requires: shared/leaf.wgsl, shared/control.wgsl, shared/frame.wgsl
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 @group(0) @binding(1) var<storage, read> measures: array<Measure>;
@@ -16,15 +16,14 @@
 
 const GROUP_SIZE: u32 = 64u;
 const LEAVES_PER_INVOCATION: u32 = 8u;
-const NEAR_WISHES: u32 = 32u;   // of the histogram: see Control.near
-const METRIC_WISHES: u32 = 33u; // see Control.metric_wishes
-const HISTOGRAM: u32 = 34u;
+const NEAR_WISHES: u32 = 32u; // of the histogram: see Control.near
+const HISTOGRAM: u32 = 33u;
 const ONE_STEP_LOWER: f32 = 0.8408964; // 2^(-1/4)
 
 var<workgroup> emitted: atomic<u32>; // visible leaves, and candidates << 16, of the workgroup
 var<workgroup> visible_base: u32;
 var<workgroup> candidate_base: u32;
-var<workgroup> histogram: array<atomic<u32>, 34>;
+var<workgroup> histogram: array<atomic<u32>, 33>;
 
 // Is a ball outside one of six planes? `first`: CULLING or GUARD.
 fn is_outside(first: u32, centre: vec3f, radius: f32) -> bool {
@@ -52,14 +51,12 @@ fn publish(slot: u32, scale: f32, has_requests: bool, counts_near: bool) -> u32 
     let digit = state_digit(before);
     let centre = measure.centre - frame.eye;
     var wanted = wish(centre, measure.size, measure.guard, scale);
-    if wanted > 1.0 {
-        atomicAdd(&histogram[METRIC_WISHES], 1u);
-    } else if counts_near && wanted > ONE_STEP_LOWER {
-        atomicAdd(&histogram[NEAR_WISHES], 1u);
-    }
     if has_requests {
         wanted = max(wanted, bitcast<f32>(state[frame.capacity + slot]));
         state[frame.capacity + slot] = 0u;
+    }
+    if counts_near && wanted <= 1.0 && wanted > ONE_STEP_LOWER {
+        atomicAdd(&histogram[NEAR_WISHES], 1u);
     }
     let mature = (before & FRESH) == 0u;
     var merges = false;
@@ -128,8 +125,6 @@ fn update(
         }
     } else if lane == NEAR_WISHES {
         atomicAdd(&control.near, atomicLoad(&histogram[NEAR_WISHES]));
-    } else if lane == METRIC_WISHES {
-        atomicAdd(&control.metric_wishes, atomicLoad(&histogram[METRIC_WISHES]));
     }
     workgroupBarrier();
 

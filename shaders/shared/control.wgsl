@@ -24,6 +24,9 @@ struct Control {
     last_splits: u32,        // of the last pass, for statistics
     last_merges: u32,
     near: atomic<u32>,       // wishes that the next lower step of pressure would turn into splits
-    metric_wishes: atomic<u32>, // wishes of the metric alone, requests left out
+    since_step: u32,         // passes since the pressure changed
+    failed: i32,             // pressure at which wishes did not fit in the present view; -1: none
+    view_serial: u32,        // of the view that `failed` is of
+    unused: u32,
     wishes: array<atomic<u32>, 32>, // by bucket
 }

@@ -22,7 +22,7 @@ struct DisplacementBound {
     largest: f32,       // of |h|, anywhere
     variation: f32,     // of h over the diamond, against its value at the centre
     steepest: f32,      // of |dh| over half of a drawn edge or median: for guard balls
-    typical: f32,       // the same as the metric counts it
+    typical: f32,       // growth of the size by it, as the metric counts it
     jump: f32,          // at a seam of the texture that the diamond touches
 }
 

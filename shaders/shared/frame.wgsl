@@ -17,6 +17,7 @@ struct Frame {
     table_mask: u32,            // entries - 1
     target_leaves: u32,         // 0: none
     base_grid: u32,             // k: a leaf is drawn as 4^k triangles
+    view_serial: u32,           // another number for another view
 }
 
 const CULLING: u32 = 0u;

@@ -13,7 +13,8 @@ fn bounds_over_cells(low: vec2u, high: vec2u) -> vec3f {
     let count = max(last.x - first.x, last.y - first.y);
     let needed = select(32u - countLeadingZeros(count - 1u), 0u, count <= 1u);
     let level = min(needed, textureNumLevels(height_bounds) - 1u);
-    let end = textureDimensions(height_bounds, level) - vec2u(1u);
+    // Not textureDimensions(height_bounds, level): llvmpipe answers for the level of another invocation.
+    let end = max(textureDimensions(height_bounds) >> vec2u(level), vec2u(1u)) - vec2u(1u);
     let a = min(first >> vec2u(level), end);
     let b = min(last >> vec2u(level), end);
     let p = textureLoad(height_bounds, a, level);

@@ -76,6 +76,8 @@ fn displacement_bound(leaf: Place, root: RootBound) -> DisplacementBound {
         slope *= 2.0 * surface.gain;
         range *= surface.gain;
     }
-    return DisplacementBound(surface.largest, variation, steepest,
-        surface.typical_slope * root.position * level_scale(leaf.level), 0.0);
+    // The typical slope counts as if it were at right angles to the flat mesh.
+    let smooth_speed = root.position + surface.largest * root.normal;
+    let speed = length(vec2f(smooth_speed, surface.typical_slope * root.position));
+    return DisplacementBound(surface.largest, variation, steepest, (speed - smooth_speed) * level_scale(leaf.level), 0.0);
 }

@@ -120,9 +120,7 @@ impl Key {
     /// The digits, the root's first.
     pub fn digits(self) -> impl DoubleEndedIterator<Item = u32> {
         let node = self.node();
-        (0..self.level())
-            .rev()
-            .map(move |i| (node >> (2 * i)) as u32 & 3)
+        (0..self.level()).rev().map(move |i| (node >> (2 * i)) as u32 & 3)
     }
 
     /// The parent, none at a root.
@@ -134,11 +132,7 @@ impl Key {
     #[must_use]
     pub fn child(self, digit: u32) -> Self {
         debug_assert!(self.level() < MAX_LEVEL && digit < 4);
-        Self::from_parts(
-            (self.node() << 2) | u64::from(digit),
-            self.face,
-            self.root(),
-        )
+        Self::from_parts((self.node() << 2) | u64::from(digit), self.face, self.root())
     }
 
     /// The exact place of the node, in integers, one step a digit. Flags are ignored.
@@ -147,9 +141,7 @@ impl Key {
     /// [`KeyError`] when the words, which may come from anywhere, are not a key.
     pub fn place(self) -> Result<Place, KeyError> {
         let key = self.checked()?;
-        Ok(key
-            .digits()
-            .fold(Place::of_root(key.face, key.root()), Place::child))
+        Ok(key.digits().fold(Place::of_root(key.face, key.root()), Place::child))
     }
 
     fn checked(self) -> Result<Self, KeyError> {

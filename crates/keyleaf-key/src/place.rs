@@ -104,11 +104,7 @@ impl Place {
 
     /// The corners O, R, U, counter-clockwise in root space.
     pub fn corners(self) -> [RootPoint; 3] {
-        [
-            self.at(0, 0),
-            self.at(self.unit(), 0),
-            self.at(0, self.unit()),
-        ]
+        [self.at(0, 0), self.at(self.unit(), 0), self.at(0, self.unit())]
     }
 
     /// The middle of the hypotenuse, which both halves of the diamond share.
@@ -116,11 +112,7 @@ impl Place {
     /// At [`MAX_LEVEL`] it is not a multiple of 1/[`ONE`]; there the answer is R, half a unit away, and the two halves differ.
     pub fn middle(self) -> RootPoint {
         let half = self.unit() / 2;
-        if half == 0 {
-            self.at(1, 0)
-        } else {
-            self.at(half, half)
-        }
+        if half == 0 { self.at(1, 0) } else { self.at(half, half) }
     }
 
     /// Child `digit` (0..4) of a node above [`MAX_LEVEL`].
@@ -200,11 +192,7 @@ impl Place {
             node |= u64::from(digit) << shift;
             place = parent;
         }
-        Key::from_parts(
-            node | 1 << (2 * self.level.min(MAX_LEVEL)),
-            self.face,
-            self.root,
-        )
+        Key::from_parts(node | 1 << (2 * self.level.min(MAX_LEVEL)), self.face, self.root)
     }
 
     /// Whether this is the place of a key: for places that were not made here. It does not ask whether the face exists.
@@ -241,22 +229,14 @@ mod tests {
     #[test]
     fn children_of_the_root_lie_as_in_the_table_of_the_design() {
         let half = ONE / 2;
-        let at = |x, y| RootPoint {
-            face: 3,
-            root: 2,
-            x,
-            y,
-        };
+        let at = |x, y| RootPoint { face: 3, root: 2, x, y };
         let expected = [
             [at(0, half), at(half, half), at(0, ONE)],
             [at(0, half), at(0, 0), at(half, half)],
             [at(half, 0), at(half, half), at(0, 0)],
             [at(half, 0), at(ONE, 0), at(half, half)],
         ];
-        assert_eq!(
-            Place::of_root(3, 2).children().map(Place::corners),
-            expected
-        );
+        assert_eq!(Place::of_root(3, 2).children().map(Place::corners), expected);
     }
 
     #[test]
@@ -320,13 +300,7 @@ mod tests {
                 None
             ]
         );
-        assert_eq!(
-            parent.child(1).drawn(false),
-            Some(parent.child(1).corners())
-        );
-        assert_eq!(
-            Place::of_root(0, 0).drawn(true),
-            Some(Place::of_root(0, 0).corners())
-        );
+        assert_eq!(parent.child(1).drawn(false), Some(parent.child(1).corners()));
+        assert_eq!(Place::of_root(0, 0).drawn(true), Some(Place::of_root(0, 0).corners()));
     }
 }

@@ -58,11 +58,7 @@ impl Site {
             (0, 0) => Self::Centre { face },
             (ONE, _) => Self::at_corner(topology, face, root),
             (_, ONE) => Self::at_corner(topology, face, next()),
-            (t, 0) => Self::Spoke {
-                face,
-                corner: root,
-                t,
-            },
+            (t, 0) => Self::Spoke { face, corner: root, t },
             (0, t) => Self::Spoke {
                 face,
                 corner: next(),
@@ -72,11 +68,7 @@ impl Site {
                 let owner = topology.half_edge_owner(face, root);
                 Self::Edge {
                     owner,
-                    t: if owner == (HalfEdge { face, root }) {
-                        y
-                    } else {
-                        x
-                    },
+                    t: if owner == (HalfEdge { face, root }) { y } else { x },
                 }
             }
             _ => Self::Interior(point),
@@ -85,9 +77,7 @@ impl Site {
 
     fn at_corner(topology: &Topology, face: u32, corner: u32) -> Self {
         let vertex = topology.vertex(face, corner);
-        let owner = topology
-            .vertex_owner(vertex)
-            .unwrap_or(HalfEdge { face, root: corner });
+        let owner = topology.vertex_owner(vertex).unwrap_or(HalfEdge { face, root: corner });
         Self::Vertex { vertex, owner }
     }
 }

@@ -12,7 +12,7 @@ use glam::DVec3;
 use keyleaf_key::{Topology, TopologyError};
 
 use crate::error::ImportError;
-use crate::mesh::{CornerAttributes, Faces, PolygonMesh};
+use keyleaf_surface::{CornerAttributes, Faces, PolygonMesh};
 use crate::note::Note;
 use crate::soup::Soup;
 use crate::triangulate::{is_convex, triangulate};

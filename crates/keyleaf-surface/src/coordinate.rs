@@ -111,10 +111,31 @@ mod tests {
     #[test]
     fn parameters_outside_are_refused() {
         let mesh = mixed();
-        assert!(matches!(root_point(&mesh, 3, 0.0, 0.0), Err(ParameterError::Face { face: 3, faces: 3 })));
-        for (face, u, v) in [(0, 0.6, 0.6), (0, f64::NAN, 0.0), (1, 1.1, 0.0), (1, 0.0, -0.1), (2, 5.1, 0.0), (2, 0.0, f64::NAN)] {
-            assert!(matches!(root_point(&mesh, face, u, v), Err(ParameterError::OutOfDomain { .. })));
+        assert!(matches!(
+            root_point(&mesh, 3, 0.0, 0.0),
+            Err(ParameterError::Face { face: 3, faces: 3 })
+        ));
+        for (face, u, v) in [
+            (0, 0.6, 0.6),
+            (0, f64::NAN, 0.0),
+            (1, 1.1, 0.0),
+            (1, 0.0, -0.1),
+            (2, 5.1, 0.0),
+            (2, 0.0, f64::NAN),
+        ] {
+            assert!(matches!(
+                root_point(&mesh, face, u, v),
+                Err(ParameterError::OutOfDomain { .. })
+            ));
         }
-        assert_eq!(root_point(&mesh, 2, 5.0, 0.0).unwrap(), RootPoint { face: 2, root: 4, x: 0, y: ONE });
+        assert_eq!(
+            root_point(&mesh, 2, 5.0, 0.0).unwrap(),
+            RootPoint {
+                face: 2,
+                root: 4,
+                x: 0,
+                y: ONE
+            }
+        );
     }
 }

@@ -35,8 +35,3 @@ pub fn touches_edge(leaf: &Place) -> bool {
 pub fn crosses_edge(leaf: &Place) -> bool {
     leaf.at(leaf.unit(), 0).is_on_mesh_edge() && leaf.at(0, leaf.unit()).is_on_mesh_edge()
 }
-
-/// Room in a guard radius for the rounding errors of the centres of all descendants.
-pub fn guard_margin(level: u32, margin: f64) -> f64 {
-    2.0 * margin * f64::from(33 - level.min(MAX_LEVEL))
-}

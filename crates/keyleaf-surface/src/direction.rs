@@ -33,7 +33,11 @@ pub fn frame_normal(du: DVec3, dv: DVec3, duv: DVec3, fallback: DVec3) -> DVec3 
 /// The next f32 above: for bounds that must not round down.
 pub fn round_up(bound: f64) -> f32 {
     let nearest = bound as f32;
-    if f64::from(nearest) < bound { nearest.next_up() } else { nearest }
+    if f64::from(nearest) < bound {
+        nearest.next_up()
+    } else {
+        nearest
+    }
 }
 
 #[cfg(test)]
@@ -42,7 +46,13 @@ mod tests {
 
     #[test]
     fn normals_of_tiny_huge_and_vanishing_derivatives_have_unit_length() {
-        let vectors = [DVec3::ZERO, DVec3::X, DVec3::Y * 1e-200, DVec3::new(1.0, 1e-3, 0.0) * 1e200, DVec3::X * -3.0];
+        let vectors = [
+            DVec3::ZERO,
+            DVec3::X,
+            DVec3::Y * 1e-200,
+            DVec3::new(1.0, 1e-3, 0.0) * 1e200,
+            DVec3::X * -3.0,
+        ];
         for du in vectors {
             for dv in vectors {
                 for duv in vectors {
@@ -50,6 +60,9 @@ mod tests {
                 }
             }
         }
-        assert_eq!(frame_normal(DVec3::X * 1e-18, DVec3::Y * 1e18, DVec3::ZERO, DVec3::X), DVec3::Z);
+        assert_eq!(
+            frame_normal(DVec3::X * 1e-18, DVec3::Y * 1e18, DVec3::ZERO, DVec3::X),
+            DVec3::Z
+        );
     }
 }

@@ -34,7 +34,7 @@ pub struct DisplacementBound {
     pub variation: f64,
     /// Of the change of h over half of the diamond's diagonals.
     pub steepest: f64,
-    /// The same, as the metric counts it.
+    /// The growth of the size by it, as the metric counts it.
     pub typical: f64,
     /// How far h may jump at a seam that the diamond touches.
     pub jump: f64,
@@ -56,7 +56,12 @@ impl SmoothMesh {
             corners.iter().map(|&v| normals[v as usize]).sum::<DVec3>() / corners.len() as f64
         };
         let centre_normals = (0..topology.face_count()).map(mean).collect();
-        let mut smooth = Self { polygons, normals, centre_normals, normal_speeds: Vec::new() };
+        let mut smooth = Self {
+            polygons,
+            normals,
+            centre_normals,
+            normal_speeds: Vec::new(),
+        };
         smooth.normal_speeds = smooth.bound_normal_speeds();
         Ok(smooth)
     }
@@ -66,12 +71,19 @@ impl SmoothMesh {
         let topology = &self.polygons.topology;
         let shortest = |face: u32| {
             let direction = unit_or_up(self.centre_normals[face as usize]);
-            let along = topology.vertices(face).iter().map(|&v| self.normals[v as usize].dot(direction));
+            let along = topology
+                .vertices(face)
+                .iter()
+                .map(|&v| self.normals[v as usize].dot(direction));
             along.fold(f64::INFINITY, f64::min).max(SHORTEST_NORMAL)
         };
         let lengths: Vec<f64> = topology.roots().map(|root| 1.0 / shortest(root.face)).collect();
         let speeds = root_speeds(topology, |operand| self.normal(operand));
-        speeds.iter().zip(over_edges(topology, &lengths)).map(|(speed, length)| speed * length).collect()
+        speeds
+            .iter()
+            .zip(over_edges(topology, &lengths))
+            .map(|(speed, length)| speed * length)
+            .collect()
     }
 
     fn normal(&self, operand: Operand) -> DVec3 {
@@ -102,13 +114,22 @@ impl SmoothMesh {
         let length = n.value.length();
         let direction = n.value / length.max(SHORTEST_NORMAL);
         let turn = |dn: DVec3| {
-            let along = if length > SHORTEST_NORMAL { direction.dot(dn) } else { 0.0 };
+            let along = if length > SHORTEST_NORMAL {
+                direction.dot(dn)
+            } else {
+                0.0
+            };
             (dn - direction * along) / length.max(SHORTEST_NORMAL)
         };
         let du = base.du + direction * height_u + turn(n.du) * height;
         let dv = base.dv + direction * height_v + turn(n.dv) * height;
         let mean = self.polygons.face_normals[at.face as usize];
-        SurfaceFrame { position: self.point(at, h), du, dv, normal: frame_normal(du, dv, base.duv, mean) }
+        SurfaceFrame {
+            position: self.point(at, h),
+            du,
+            dv,
+            normal: frame_normal(du, dv, base.duv, mean),
+        }
     }
 
     /// The bound about `centre`, the displaced [`diamond::centre`].
@@ -132,8 +153,16 @@ impl SmoothMesh {
 
     /// `surface_a`: positions, normals, then the normals of the faces.
     pub fn table(&self, origin: DVec3) -> Vec<f32> {
-        let normals = self.normals.iter().chain(&self.centre_normals).flat_map(|&n| vector_entry(n));
-        self.polygons.position_table(origin).chain(normals).chain(self.polygons.face_normal_table()).collect()
+        let normals = self
+            .normals
+            .iter()
+            .chain(&self.centre_normals)
+            .flat_map(|&n| vector_entry(n));
+        self.polygons
+            .position_table(origin)
+            .chain(normals)
+            .chain(self.polygons.face_normal_table())
+            .collect()
     }
 
     /// The rounding error of a position: that of its base and normal, and of a displacement that changes by `slope` a unit of

@@ -26,21 +26,42 @@ pub struct NoiseDisplacement {
 
 impl Default for NoiseDisplacement {
     fn default() -> Self {
-        Self { amplitude: 0.1, frequency: 2.0, octaves: 6, gain: 0.5, seed: 0 }
+        Self {
+            amplitude: 0.1,
+            frequency: 2.0,
+            octaves: 6,
+            gain: 0.5,
+            seed: 0,
+        }
     }
 }
 
 impl NoiseDisplacement {
     fn check(&self) -> Result<(), SettingError> {
-        SettingError::check("amplitude", self.amplitude, self.amplitude.abs() <= 1e15, "a length of at most 1e15")?;
+        SettingError::check(
+            "amplitude",
+            self.amplitude,
+            self.amplitude.abs() <= 1e15,
+            "a length of at most 1e15",
+        )?;
         SettingError::check(
             "frequency",
             self.frequency,
             (1e-15..=1e15).contains(&self.frequency),
             "a number greater than 0",
         )?;
-        SettingError::check("octaves", f64::from(self.octaves), (1..=16).contains(&self.octaves), "1 to 16")?;
-        SettingError::check("gain", self.gain, (0.0..=1.0).contains(&self.gain), "a number from 0 to 1")
+        SettingError::check(
+            "octaves",
+            f64::from(self.octaves),
+            (1..=16).contains(&self.octaves),
+            "1 to 16",
+        )?;
+        SettingError::check(
+            "gain",
+            self.gain,
+            (0.0..=1.0).contains(&self.gain),
+            "a number from 0 to 1",
+        )
     }
 
     /// (frequency, amplitude) of every octave.
@@ -62,12 +83,15 @@ impl NoiseDisplacement {
     }
 
     fn largest(&self) -> f64 {
-        self.octaves().map(|(_, amplitude)| NOISE3_LARGEST * amplitude.abs()).sum()
+        self.octaves()
+            .map(|(_, amplitude)| NOISE3_LARGEST * amplitude.abs())
+            .sum()
     }
 
     /// The greatest slopes of the octaves.
     fn slopes(&self) -> impl Iterator<Item = f64> {
-        self.octaves().map(|(frequency, amplitude)| NOISE3_SLOPE * frequency * amplitude.abs())
+        self.octaves()
+            .map(|(frequency, amplitude)| NOISE3_SLOPE * frequency * amplitude.abs())
     }
 
     /// The octaves' greatest slopes added as squares, since they are independent: about three standard deviations of the slope.
@@ -130,12 +154,23 @@ impl DisplacedNoise {
         let root = self.topology().half_edge_index(leaf.face, leaf.root) as usize;
         let speed = self.mesh.polygons.speeds[root];
         let reach = speed * diamond::ball_scale(leaf.level);
-        let ranges = self.noise.octaves().map(|(_, amplitude)| 2.0 * NOISE3_LARGEST * amplitude.abs());
+        // The typical slope counts as if it were at right angles to the flat mesh.
+        let smooth_speed = speed + self.noise.largest() * self.mesh.normal_speeds[root];
+        let typical = smooth_speed.hypot(self.noise.typical_slope() * speed) - smooth_speed;
+        let ranges = self
+            .noise
+            .octaves()
+            .map(|(_, amplitude)| 2.0 * NOISE3_LARGEST * amplitude.abs());
         DisplacementBound {
             largest: self.noise.largest(),
-            variation: self.noise.slopes().zip(ranges).map(|(slope, range)| range.min(slope * reach)).sum(),
+            variation: self
+                .noise
+                .slopes()
+                .zip(ranges)
+                .map(|(slope, range)| range.min(slope * reach))
+                .sum(),
             steepest: self.noise.slopes().sum::<f64>() * reach,
-            typical: self.noise.typical_slope() * speed * diamond::level_scale(leaf.level),
+            typical: typical * diamond::level_scale(leaf.level),
             jump: 0.0,
         }
     }
@@ -159,7 +194,8 @@ impl Surface for DisplacedNoise {
     }
 
     fn bound(&self, leaf: &Place) -> SurfaceBound {
-        self.mesh.bound(leaf, self.point(diamond::centre(leaf)), self.displacement_bound(leaf))
+        self.mesh
+            .bound(leaf, self.point(diamond::centre(leaf)), self.displacement_bound(leaf))
     }
 
     fn bounding_box(&self) -> (DVec3, DVec3) {
@@ -190,11 +226,17 @@ impl Surface for DisplacedNoise {
             largest: round_up(self.noise.largest()),
             typical_slope: round_up(self.noise.typical_slope()),
         };
-        let roots = polygons.vertices.iter().zip(&polygons.speeds).zip(&self.mesh.normal_speeds);
+        let roots = polygons
+            .vertices
+            .iter()
+            .zip(&polygons.speeds)
+            .zip(&self.mesh.normal_speeds);
         SurfaceTables {
             params: uniform(&params),
             a: self.mesh.table(origin),
-            b: roots.flat_map(|((&v, &p), &n)| [v, round_up(p).to_bits(), round_up(n).to_bits(), 0]).collect(),
+            b: roots
+                .flat_map(|((&v, &p), &n)| [v, round_up(p).to_bits(), round_up(n).to_bits(), 0])
+                .collect(),
             heights: None,
             height_bounds: None,
         }

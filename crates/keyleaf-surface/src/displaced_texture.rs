@@ -8,7 +8,8 @@ use crate::mesh::POSITION_ERROR;
 use crate::stencil::{Jet, Operand, root_speeds};
 use crate::surface::uniform;
 use crate::{
-    HeightMap, Interpolation, MeshError, PolygonMesh, SettingError, Surface, SurfaceBound, SurfaceFrame, SurfaceTables, diamond,
+    HeightMap, Interpolation, MeshError, PolygonMesh, SettingError, Surface, SurfaceBound, SurfaceFrame, SurfaceTables,
+    diamond,
 };
 use encase::ShaderType;
 use glam::{DVec2, DVec3, IVec2};
@@ -67,14 +68,31 @@ impl DisplacedTexture {
     /// [`MeshError`] if the mesh is no surface or has no coordinates, or a setting is not finite.
     pub fn new(mesh: &PolygonMesh, displacement: TextureDisplacement) -> Result<Self, MeshError> {
         let is_length = |length: f64| length.abs() <= 1e15;
-        SettingError::check("scale", displacement.scale, is_length(displacement.scale), "a length of at most 1e15")?;
-        SettingError::check("offset", displacement.offset, is_length(displacement.offset), "a length of at most 1e15")?;
+        SettingError::check(
+            "scale",
+            displacement.scale,
+            is_length(displacement.scale),
+            "a length of at most 1e15",
+        )?;
+        SettingError::check(
+            "offset",
+            displacement.offset,
+            is_length(displacement.offset),
+            "a length of at most 1e15",
+        )?;
         let round = |value: f64| f64::from(value as f32);
         let (scale, offset) = (round(displacement.scale), round(displacement.offset));
-        let displacement = TextureDisplacement { scale, offset, ..displacement };
+        let displacement = TextureDisplacement {
+            scale,
+            offset,
+            ..displacement
+        };
         let uvs = mesh.corners.uvs.as_ref().ok_or(MeshError::NoTextureCoordinates)?;
         let smooth = SmoothMesh::new(mesh)?;
-        let uvs: Vec<DVec2> = uvs.iter().map(|&[u, v]| DVec2::new(f64::from(u), f64::from(v))).collect();
+        let uvs: Vec<DVec2> = uvs
+            .iter()
+            .map(|&[u, v]| DVec2::new(f64::from(u), f64::from(v)))
+            .collect();
         let mut surface = Self {
             bounds: bounds(&displacement),
             centre_uvs: centre_uvs(&smooth.polygons.topology, &uvs),
@@ -89,7 +107,10 @@ impl DisplacedTexture {
     }
 
     fn size(&self) -> DVec2 {
-        DVec2::new(f64::from(self.displacement.texels.width()), f64::from(self.displacement.texels.height()))
+        DVec2::new(
+            f64::from(self.displacement.texels.width()),
+            f64::from(self.displacement.texels.height()),
+        )
     }
 
     /// The position of a corner or centre in the texture, in texels: texel (i, j) from below is at (i, j).
@@ -107,7 +128,10 @@ impl DisplacedTexture {
         let count = topology.corner_count(at.face);
         let owned_corner = |corner: u32| {
             let start = topology.vertex_owner(topology.vertex(at.face, corner));
-            let HalfEdge { face, root } = start.unwrap_or(HalfEdge { face: at.face, root: corner });
+            let HalfEdge { face, root } = start.unwrap_or(HalfEdge {
+                face: at.face,
+                root: corner,
+            });
             self.texel(Operand::Corner(topology.half_edge_index(face, root)))
         };
         match at {
@@ -115,13 +139,19 @@ impl DisplacedTexture {
             RootPoint { y: ONE, .. } => owned_corner((at.root + 1) % count),
             _ if at.is_on_mesh_edge() => {
                 let owner = topology.half_edge_owner(at.face, at.root);
-                let is_own = owner == (HalfEdge { face: at.face, root: at.root });
+                let is_own = owner
+                    == (HalfEdge {
+                        face: at.face,
+                        root: at.root,
+                    });
                 let t = f64::from(if is_own { at.y } else { at.x }) / f64::from(ONE);
                 let end = (owner.root + 1) % topology.corner_count(owner.face);
                 let corner = |root| self.texel(Operand::Corner(topology.half_edge_index(owner.face, root)));
                 corner(owner.root).lerp(corner(end), t)
             }
-            _ => Jet::of(topology, at).value(|operand| self.texel(operand).extend(0.0)).truncate(),
+            _ => Jet::of(topology, at)
+                .value(|operand| self.texel(operand).extend(0.0))
+                .truncate(),
         }
     }
 
@@ -129,7 +159,13 @@ impl DisplacedTexture {
     fn sample(&self, at: DVec2) -> [f64; 3] {
         let cell = at.floor();
         let texels = &self.displacement.texels;
-        let texel = |i, j| if self.displacement.repeats { texels.repeated(i, j) } else { texels.clamped(i, j) };
+        let texel = |i, j| {
+            if self.displacement.repeats {
+                texels.repeated(i, j)
+            } else {
+                texels.clamped(i, j)
+            }
+        };
         let index = [cell.x as i64, cell.y as i64];
         let [h, di, dj] = interpolate(Interpolation::Bicubic, texel, index, (at - cell).to_array());
         let scale = self.displacement.scale;
@@ -172,13 +208,21 @@ impl DisplacedTexture {
             variation: f64::from(bounds.high - bounds.low).min(steepest),
             steepest,
             typical: f64::from(bounds.slope) * self.texel_speeds[root] * diamond::level_scale(leaf.level),
-            jump: if diamond::touches_edge(leaf) { self.jump(root) } else { 0.0 },
+            jump: if diamond::touches_edge(leaf) {
+                self.jump(root)
+            } else {
+                0.0
+            },
         }
     }
 
     fn jump(&self, root: usize) -> f64 {
         let bounds = self.bounds.of_map();
-        if self.is_seam[root] { f64::from(bounds.high) - f64::from(bounds.low) } else { 0.0 }
+        if self.is_seam[root] {
+            f64::from(bounds.high) - f64::from(bounds.low)
+        } else {
+            0.0
+        }
     }
 
     /// `surface_b`: half-edges, then centres.
@@ -187,7 +231,9 @@ impl DisplacedTexture {
         let bits = |value: f64| (value as f32).to_bits();
         let half_edge = |index: usize| {
             let vertex = self.mesh.polygons.vertices[index];
-            let owner = topology.vertex_owner(vertex).map_or(index as u32, |h| topology.half_edge_index(h.face, h.root));
+            let owner = topology
+                .vertex_owner(vertex)
+                .map_or(index as u32, |h| topology.half_edge_index(h.face, h.root));
             let bounds = [
                 self.mesh.polygons.speeds[index],
                 self.mesh.normal_speeds[index],
@@ -196,7 +242,16 @@ impl DisplacedTexture {
             ]
             .map(|bound| round_up(bound).to_bits());
             let uv = self.uvs[index];
-            [vertex, bounds[0], bounds[1], bounds[2], bits(uv.x), bits(uv.y), owner, bounds[3]]
+            [
+                vertex,
+                bounds[0],
+                bounds[1],
+                bounds[2],
+                bits(uv.x),
+                bits(uv.y),
+                owner,
+                bounds[3],
+            ]
         };
         let centres = self.centre_uvs.iter().flat_map(|uv| [bits(uv.x), bits(uv.y), 0, 0]);
         (0..self.uvs.len()).flat_map(half_edge).chain(centres).collect()
@@ -204,13 +259,21 @@ impl DisplacedTexture {
 
     /// The rounding error of a texture coordinate, in texels.
     fn texel_margin(&self) -> f64 {
-        let largest = self.uvs.iter().fold(0.0f64, |largest, uv| largest.max(uv.abs().max_element()));
+        let largest = self
+            .uvs
+            .iter()
+            .fold(0.0f64, |largest, uv| largest.max(uv.abs().max_element()));
         POSITION_ERROR * (largest + 1.0) * self.size().max_element()
     }
 }
 
 fn bounds(displacement: &TextureDisplacement) -> HeightBounds {
-    let TextureDisplacement { texels, scale, offset, repeats } = displacement;
+    let TextureDisplacement {
+        texels,
+        scale,
+        offset,
+        repeats,
+    } = displacement;
     let scale = HeightScale {
         interpolation: Interpolation::Bicubic,
         scale: *scale,
@@ -218,16 +281,29 @@ fn bounds(displacement: &TextureDisplacement) -> HeightBounds {
         slope: [scale.abs(), scale.abs()],
     };
     if *repeats {
-        HeightBounds::new(0, [texels.width(), texels.height()], |i, j| texels.repeated(i, j), scale)
+        HeightBounds::new(
+            0,
+            [texels.width(), texels.height()],
+            |i, j| texels.repeated(i, j),
+            scale,
+        )
     } else {
         // One more: the cells before the first texel and after the last.
-        HeightBounds::new(-1, [texels.width() + 1, texels.height() + 1], |i, j| texels.clamped(i, j), scale)
+        HeightBounds::new(
+            -1,
+            [texels.width() + 1, texels.height() + 1],
+            |i, j| texels.clamped(i, j),
+            scale,
+        )
     }
 }
 
 fn centre_uvs(topology: &Topology, uvs: &[DVec2]) -> Vec<DVec2> {
     let mean = |face| {
-        let (first, count) = (topology.first_half_edge(face) as usize, topology.corner_count(face) as usize);
+        let (first, count) = (
+            topology.first_half_edge(face) as usize,
+            topology.corner_count(face) as usize,
+        );
         uvs[first..first + count].iter().sum::<DVec2>() / count as f64
     };
     (0..topology.face_count()).map(mean).collect()
@@ -238,7 +314,9 @@ fn seams(topology: &Topology, uvs: &[DVec2]) -> Vec<bool> {
     let differs = |face: u32, corner: u32| {
         let index = |h: HalfEdge| uvs[topology.half_edge_index(h.face, h.root) as usize];
         let own = index(HalfEdge { face, root: corner });
-        topology.vertex_owner(topology.vertex(face, corner)).is_some_and(|owner| index(owner) != own)
+        topology
+            .vertex_owner(topology.vertex(face, corner))
+            .is_some_and(|owner| index(owner) != own)
     };
     let at_ends = |face: u32, root: u32| differs(face, root) || differs(face, (root + 1) % topology.corner_count(face));
     let is_seam = |root: Place| {
@@ -267,7 +345,8 @@ impl Surface for DisplacedTexture {
     }
 
     fn bound(&self, leaf: &Place) -> SurfaceBound {
-        self.mesh.bound(leaf, self.point(diamond::centre(leaf)), self.displacement_bound(leaf))
+        self.mesh
+            .bound(leaf, self.point(diamond::centre(leaf)), self.displacement_bound(leaf))
     }
 
     fn bounding_box(&self) -> (DVec3, DVec3) {

@@ -31,7 +31,9 @@ pub enum MeshError {
         found: usize,
     },
     /// A texture coordinate is NaN, infinite or too large.
-    #[error("corner {corner} of face {face} has the texture coordinate ({u}, {v}); expected finite numbers of at most 65536")]
+    #[error(
+        "corner {corner} of face {face} has the texture coordinate ({u}, {v}); expected finite numbers of at most 65536"
+    )]
     TextureCoordinate {
         /// The face.
         face: u32,
@@ -62,7 +64,9 @@ pub enum HeightMapError {
         height: u32,
     },
     /// More than a texture can hold.
-    #[error("the height map has {width} x {height} samples; at most {limit} x {limit} fit a texture: cut it into tiles or reduce it")]
+    #[error(
+        "the height map has {width} x {height} samples; at most {limit} x {limit} fit a texture: cut it into tiles or reduce it"
+    )]
     TooLarge {
         /// Columns.
         width: u32,
@@ -111,7 +115,11 @@ pub struct SettingError {
 impl SettingError {
     /// An error unless `value` is finite and `holds`.
     pub(crate) fn check(name: &'static str, value: f64, holds: bool, expected: &'static str) -> Result<(), Self> {
-        if value.is_finite() && holds { Ok(()) } else { Err(Self { name, value, expected }) }
+        if value.is_finite() && holds {
+            Ok(())
+        } else {
+            Err(Self { name, value, expected })
+        }
     }
 }
 

@@ -6,7 +6,6 @@
 
 use crate::direction::round_up;
 use crate::{Interpolation, TextureData};
-use std::ops::Range;
 use std::sync::Arc;
 
 /// log2 of the cells along a block.
@@ -21,10 +20,18 @@ pub struct Bounds {
 }
 
 impl Bounds {
-    const NOTHING: Self = Self { low: f32::INFINITY, high: f32::NEG_INFINITY, slope: 0.0 };
+    const NOTHING: Self = Self {
+        low: f32::INFINITY,
+        high: f32::NEG_INFINITY,
+        slope: 0.0,
+    };
 
     fn union(self, other: Self) -> Self {
-        Self { low: self.low.min(other.low), high: self.high.max(other.high), slope: self.slope.max(other.slope) }
+        Self {
+            low: self.low.min(other.low),
+            high: self.high.max(other.high),
+            slope: self.slope.max(other.slope),
+        }
     }
 }
 
@@ -50,16 +57,24 @@ impl HeightBounds {
     pub fn new(first: i64, cells: [u32; 2], sample: impl Fn(i64, i64) -> f64, scale: HeightScale) -> Self {
         let [width, height] = cells.map(|n| n.div_ceil(1 << BLOCK_SHIFT));
         let mut base = vec![Bounds::NOTHING; (width * height) as usize];
-        let columns = first..first + i64::from(cells[0]);
+        let samples_of = |j: i64| -> Vec<f64> {
+            (first - 1..first + i64::from(cells[0]) + 2)
+                .map(|i| sample(i, first + j))
+                .collect()
+        };
+        let mut rows = [-1, -1, 0, 1].map(samples_of);
         for j in 0..cells[1] {
-            let row = cell_row(columns.clone(), first + i64::from(j), &sample, scale);
+            rows.rotate_left(1);
+            rows[3] = samples_of(i64::from(j) + 2);
             let blocks = &mut base[((j >> BLOCK_SHIFT) * width) as usize..];
-            for (i, bounds) in row.enumerate() {
+            for (i, bounds) in cell_row(&rows, scale).enumerate() {
                 let block = &mut blocks[i >> BLOCK_SHIFT];
                 *block = block.union(bounds);
             }
         }
-        Self { texture: Arc::new(pyramid(base, width, height)) }
+        Self {
+            texture: Arc::new(pyramid(base, width, height)),
+        }
     }
 
     pub fn texture(&self) -> Arc<TextureData> {
@@ -70,7 +85,11 @@ impl HeightBounds {
     pub fn over_cells(&self, low: [u32; 2], high: [u32; 2]) -> Bounds {
         let (first, last) = (low.map(|c| c >> BLOCK_SHIFT), high.map(|c| c >> BLOCK_SHIFT));
         let count = (last[0] - first[0]).max(last[1] - first[1]);
-        let needed = if count <= 1 { 0 } else { 32 - (count - 1).leading_zeros() };
+        let needed = if count <= 1 {
+            0
+        } else {
+            32 - (count - 1).leading_zeros()
+        };
         let level = needed.min(self.texture.mips.len() as u32 - 1);
         let ends = [self.texture.width, self.texture.height].map(|n| (n >> level).max(1) - 1);
         let block = |at: [u32; 2]| [0, 1].map(|k| (at[k] >> level).min(ends[k]));
@@ -78,9 +97,16 @@ impl HeightBounds {
         let texel = |x: u32, y: u32| {
             let start = 4 * (y * (ends[0] + 1) + x) as usize;
             let texels = &self.texture.mips[level as usize];
-            Bounds { low: texels[start], high: texels[start + 1], slope: texels[start + 2] }
+            Bounds {
+                low: texels[start],
+                high: texels[start + 1],
+                slope: texels[start + 2],
+            }
         };
-        texel(a[0], a[1]).union(texel(b[0], a[1])).union(texel(a[0], b[1])).union(texel(b[0], b[1]))
+        texel(a[0], a[1])
+            .union(texel(b[0], a[1]))
+            .union(texel(a[0], b[1]))
+            .union(texel(b[0], b[1]))
     }
 
     /// Over the whole map.
@@ -105,20 +131,20 @@ fn pyramid(base: Vec<Bounds>, width: u32, height: u32) -> TextureData {
         (w, h) = (next_w, next_h);
     }
     let texels = |level: Vec<Bounds>| level.iter().flat_map(|b| [b.low, b.high, b.slope, 0.0]).collect();
-    TextureData { width, height, channels: 4, mips: levels.into_iter().map(texels).collect() }
+    TextureData {
+        width,
+        height,
+        channels: 4,
+        mips: levels.into_iter().map(texels).collect(),
+    }
 }
 
-/// The bounds of a row of cells.
-fn cell_row<'a>(
-    columns: Range<i64>,
-    j: i64,
-    sample: &'a impl Fn(i64, i64) -> f64,
-    scale: HeightScale,
-) -> impl Iterator<Item = Bounds> + 'a {
-    let coefficients = move |i: i64| bezier([-1, 0, 1, 2].map(|row| sample(i, j + row)), scale.interpolation);
-    let mut window = [columns.start - 1, columns.start - 1, columns.start, columns.start + 1].map(coefficients);
-    columns.map(move |i| {
-        window = [window[1], window[2], window[3], coefficients(i + 2)];
+/// The bounds of a row of cells from the samples of the rows at -1, 0, 1 and 2, each from one before the first cell.
+fn cell_row(rows: &[Vec<f64>; 4], scale: HeightScale) -> impl Iterator<Item = Bounds> {
+    let coefficients = move |i: usize| bezier([0, 1, 2, 3].map(|row| rows[row][i]), scale.interpolation);
+    let mut window = [0, 0, 1, 2].map(coefficients);
+    (3..rows[0].len()).map(move |i| {
+        window = [window[1], window[2], window[3], coefficients(i)];
         cell(&window, scale)
     })
 }
@@ -150,7 +176,11 @@ fn cell(columns: &[[f64; 4]; 4], scale: HeightScale) -> Bounds {
     }
     let (a, b) = (low * scale.scale + scale.offset, high * scale.scale + scale.offset);
     let slope = (3.0 * steepest[0] * scale.slope[0]).hypot(3.0 * steepest[1] * scale.slope[1]);
-    Bounds { low: -round_up(-a.min(b)), high: round_up(a.max(b)), slope: round_up(slope) }
+    Bounds {
+        low: -round_up(-a.min(b)),
+        high: round_up(a.max(b)),
+        slope: round_up(slope),
+    }
 }
 
 #[cfg(test)]
@@ -168,7 +198,12 @@ mod tests {
     fn bounds_hold_for_overshoot_and_slopes_and_are_nested() {
         let (map, cells) = (rough(38, 23), [37, 22]);
         for interpolation in [Interpolation::Bicubic, Interpolation::Bilinear] {
-            let scale = HeightScale { interpolation, scale: -2.0, offset: 3.0, slope: [2.0, 4.0] };
+            let scale = HeightScale {
+                interpolation,
+                scale: -2.0,
+                offset: 3.0,
+                slope: [2.0, 4.0],
+            };
             let bounds = HeightBounds::new(0, cells, |i, j| map.continued(i, j), scale);
             for (i, j) in (0..37u32).flat_map(|i| (0..22u32).map(move |j| (i, j))) {
                 let own = bounds.over_cells([i, j], [i, j]);

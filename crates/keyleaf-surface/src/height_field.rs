@@ -27,7 +27,12 @@ pub struct HeightFieldSettings {
 
 impl Default for HeightFieldSettings {
     fn default() -> Self {
-        Self { extent: DVec2::ONE, scale: 1.0, offset: 0.0, interpolation: Interpolation::Bicubic }
+        Self {
+            extent: DVec2::ONE,
+            scale: 1.0,
+            offset: 0.0,
+            interpolation: Interpolation::Bicubic,
+        }
     }
 }
 
@@ -69,15 +74,38 @@ impl HeightField {
     /// [`HeightMapError::Setting`] if an extent is not a positive length or a height not finite.
     pub fn new(samples: HeightMap, settings: HeightFieldSettings) -> Result<Self, HeightMapError> {
         let is_height = |height: f64| height.abs() <= 1e15;
-        SettingError::check("scale", settings.scale, is_height(settings.scale), "a number of at most 1e15")?;
-        SettingError::check("offset", settings.offset, is_height(settings.offset), "a height of at most 1e15")?;
-        let settings = HeightFieldSettings { scale: f64::from(settings.scale as f32), ..settings };
+        SettingError::check(
+            "scale",
+            settings.scale,
+            is_height(settings.scale),
+            "a number of at most 1e15",
+        )?;
+        SettingError::check(
+            "offset",
+            settings.offset,
+            is_height(settings.offset),
+            "a height of at most 1e15",
+        )?;
+        let settings = HeightFieldSettings {
+            scale: f64::from(settings.scale as f32),
+            ..settings
+        };
         let map = Map::new(settings.extent)?;
         let cells = UVec2::new(samples.width() - 1, samples.height() - 1);
         let slope = (cells.as_dvec2() * settings.scale.abs() / settings.extent).to_array();
-        let scale = HeightScale { interpolation: settings.interpolation, scale: settings.scale, offset: 0.0, slope };
+        let scale = HeightScale {
+            interpolation: settings.interpolation,
+            scale: settings.scale,
+            offset: 0.0,
+            slope,
+        };
         let bounds = HeightBounds::new(0, cells.to_array(), |i, j| samples.continued(i, j), scale);
-        Ok(Self { samples, map, settings, bounds })
+        Ok(Self {
+            samples,
+            map,
+            settings,
+            bounds,
+        })
     }
 
     /// The height map.
@@ -93,7 +121,12 @@ impl HeightField {
     fn sample(&self, at: QuadCoord) -> [f64; 3] {
         let [(i, f), (j, g)] = [(at.u, 0), (at.v, 1)].map(|(value, axis)| split_cell(value, self.cells()[axis]));
         let sample = |i, j| self.samples.continued(i, j);
-        let [h, di, dj] = interpolate(self.settings.interpolation, sample, [i64::from(i), i64::from(j)], [f, g]);
+        let [h, di, dj] = interpolate(
+            self.settings.interpolation,
+            sample,
+            [i64::from(i), i64::from(j)],
+            [f, g],
+        );
         [h, di * f64::from(self.cells()[0]), dj * f64::from(self.cells()[1])]
     }
 }
@@ -114,12 +147,14 @@ impl Surface for HeightField {
 
     fn point(&self, at: RootPoint) -> DVec3 {
         let at = QuadCoord::of(at);
-        self.map.position(at, self.sample(at)[0] * self.settings.scale + self.settings.offset)
+        self.map
+            .position(at, self.sample(at)[0] * self.settings.scale + self.settings.offset)
     }
 
     fn frame(&self, at: RootPoint) -> SurfaceFrame {
         let [_, u, v] = self.sample(QuadCoord::of(at));
-        self.map.frame(self.point(at), [u, v].map(|slope| slope * self.settings.scale))
+        self.map
+            .frame(self.point(at), [u, v].map(|slope| slope * self.settings.scale))
     }
 
     fn bound(&self, leaf: &Place) -> SurfaceBound {
@@ -185,8 +220,12 @@ mod tests {
         let samples: Vec<f32> = (0..7 * 5).map(|k| (k * k % 91) as f32).collect();
         let map = HeightMap::new(7, 5, samples.clone()).unwrap();
         for interpolation in [Interpolation::Bicubic, Interpolation::Bilinear] {
-            let settings =
-                HeightFieldSettings { extent: DVec2::new(60.0, 40.0), scale: 0.5, offset: 10.0, interpolation };
+            let settings = HeightFieldSettings {
+                extent: DVec2::new(60.0, 40.0),
+                scale: 0.5,
+                offset: 10.0,
+                interpolation,
+            };
             let surface = HeightField::new(map.clone(), settings).unwrap();
             for (k, sample) in samples.iter().enumerate() {
                 let (i, j) = (k % 7, 4 - k / 7);
@@ -200,7 +239,10 @@ mod tests {
     #[test]
     fn a_plane_is_a_plane_to_the_rim() {
         let map = HeightMap::new(4, 3, (0..12).map(|k| (k % 4 * 2) as f32 - (k / 4) as f32).collect()).unwrap();
-        let settings = HeightFieldSettings { extent: DVec2::new(3.0, 2.0), ..HeightFieldSettings::default() };
+        let settings = HeightFieldSettings {
+            extent: DVec2::new(3.0, 2.0),
+            ..HeightFieldSettings::default()
+        };
         let surface = HeightField::new(map, settings).unwrap();
         for (u, v) in [(0.0, 0.0), (1.0, 1.0), (0.01, 0.99), (0.5, 0.3)] {
             let frame = surface.frame(surface.face_coord(0, u, v).unwrap());

@@ -30,17 +30,36 @@ impl HeightMap {
             return Err(HeightMapError::TooSmall { width, height });
         }
         if width > MAX_MAP_SIDE || height > MAX_MAP_SIDE {
-            return Err(HeightMapError::TooLarge { width, height, limit: MAX_MAP_SIDE });
+            return Err(HeightMapError::TooLarge {
+                width,
+                height,
+                limit: MAX_MAP_SIDE,
+            });
         }
         if samples.len() != width as usize * height as usize {
-            return Err(HeightMapError::SampleCount { width, height, found: samples.len() });
+            return Err(HeightMapError::SampleCount {
+                width,
+                height,
+                found: samples.len(),
+            });
         }
         let is_small = |sample: &f32| sample.abs() <= 1e15;
         if let Some(index) = samples.iter().position(|sample| !is_small(sample)) {
             let (column, row) = (index as u32 % width, index as u32 / width);
-            return Err(HeightMapError::Sample { column, row, value: samples[index] });
+            return Err(HeightMapError::Sample {
+                column,
+                row,
+                value: samples[index],
+            });
         }
-        Ok(Self { texels: Arc::new(TextureData { width, height, channels: 1, mips: vec![samples] }) })
+        Ok(Self {
+            texels: Arc::new(TextureData {
+                width,
+                height,
+                channels: 1,
+                mips: vec![samples],
+            }),
+        })
     }
 
     /// Columns.
@@ -66,7 +85,13 @@ impl HeightMap {
     /// A sample anywhere: beyond the rim, the linear continuation of the two samples next to it.
     pub(crate) fn continued(&self, i: i64, j: i64) -> f64 {
         let [last_i, last_j] = [self.width(), self.height()].map(|n| i64::from(n) - 1);
-        let steps = |at: i64, last: i64| if at < 0 { (0, 1, -at) } else { (last, last - 1, (at - last).max(0)) };
+        let steps = |at: i64, last: i64| {
+            if at < 0 {
+                (0, 1, -at)
+            } else {
+                (last, last - 1, (at - last).max(0))
+            }
+        };
         let (rim, inner, beyond) = steps(j, last_j);
         if beyond > 0 {
             let (rim, inner) = (self.continued(i, rim), self.continued(i, inner));
@@ -109,9 +134,18 @@ mod tests {
 
     #[test]
     fn maps_that_fit_no_texture_or_have_voids_are_refused() {
-        assert!(matches!(HeightMap::new(1, 5, vec![0.0; 5]), Err(HeightMapError::TooSmall { .. })));
-        assert!(matches!(HeightMap::new(8193, 2, vec![]), Err(HeightMapError::TooLarge { limit: 8192, .. })));
-        assert!(matches!(HeightMap::new(2, 2, vec![0.0; 3]), Err(HeightMapError::SampleCount { found: 3, .. })));
+        assert!(matches!(
+            HeightMap::new(1, 5, vec![0.0; 5]),
+            Err(HeightMapError::TooSmall { .. })
+        ));
+        assert!(matches!(
+            HeightMap::new(8193, 2, vec![]),
+            Err(HeightMapError::TooLarge { limit: 8192, .. })
+        ));
+        assert!(matches!(
+            HeightMap::new(2, 2, vec![0.0; 3]),
+            Err(HeightMapError::SampleCount { found: 3, .. })
+        ));
         let error = HeightMap::new(2, 2, vec![0.0, 0.0, f32::NAN, 0.0]);
         assert!(matches!(error, Err(HeightMapError::Sample { column: 0, row: 1, .. })));
     }

@@ -11,7 +11,12 @@ pub enum Interpolation {
 }
 
 /// (value, d/di, d/dj) at (i + f, j + g) for samples at integers.
-pub fn interpolate(mode: Interpolation, sample: impl Fn(i64, i64) -> f64, [i, j]: [i64; 2], [f, g]: [f64; 2]) -> [f64; 3] {
+pub fn interpolate(
+    mode: Interpolation,
+    sample: impl Fn(i64, i64) -> f64,
+    [i, j]: [i64; 2],
+    [f, g]: [f64; 2],
+) -> [f64; 3] {
     let basis = match mode {
         Interpolation::Bicubic => catmull_rom,
         Interpolation::Bilinear => linear,
@@ -36,8 +41,18 @@ pub fn interpolate(mode: Interpolation, sample: impl Fn(i64, i64) -> f64, [i, j]
 fn catmull_rom(f: f64) -> [[f64; 4]; 2] {
     let (f2, f3) = (f * f, f * f * f);
     [
-        [-0.5 * f + f2 - 0.5 * f3, 1.0 - 2.5 * f2 + 1.5 * f3, 0.5 * f + 2.0 * f2 - 1.5 * f3, 0.5 * f3 - 0.5 * f2],
-        [-0.5 + 2.0 * f - 1.5 * f2, 4.5 * f2 - 5.0 * f, 0.5 + 4.0 * f - 4.5 * f2, 1.5 * f2 - f],
+        [
+            -0.5 * f + f2 - 0.5 * f3,
+            1.0 - 2.5 * f2 + 1.5 * f3,
+            0.5 * f + 2.0 * f2 - 1.5 * f3,
+            0.5 * f3 - 0.5 * f2,
+        ],
+        [
+            -0.5 + 2.0 * f - 1.5 * f2,
+            4.5 * f2 - 5.0 * f,
+            0.5 + 4.0 * f - 4.5 * f2,
+            1.5 * f2 - f,
+        ],
     ]
 }
 
@@ -56,7 +71,11 @@ mod tests {
         for mode in [Interpolation::Bicubic, Interpolation::Bilinear] {
             for (f, g) in [(0.0, 0.0), (0.25, 1.0), (0.3, 0.9)] {
                 let [h, di, dj] = interpolate(mode, plane, [4, -2], [f, g]);
-                assert!((h - (12.0 + 2.0 * f - 0.5 * g)).abs() < 1e-12 && (di - 2.0).abs() < 1e-12 && (dj + 0.5).abs() < 1e-12);
+                assert!(
+                    (h - (12.0 + 2.0 * f - 0.5 * g)).abs() < 1e-12
+                        && (di - 2.0).abs() < 1e-12
+                        && (dj + 0.5).abs() < 1e-12
+                );
             }
             let at = |f: f64, g: f64| interpolate(mode, wave, [2, 5], [f, g]);
             assert_eq!(at(0.0, 0.0)[0], wave(2, 5));

@@ -57,7 +57,10 @@ impl Map {
     }
 
     pub fn bounding_box(&self, low: f64, high: f64) -> (DVec3, DVec3) {
-        (DVec3::new(0.0, low, -self.extent.y), DVec3::new(self.extent.x, high, 0.0))
+        (
+            DVec3::new(0.0, low, -self.extent.y),
+            DVec3::new(self.extent.x, high, 0.0),
+        )
     }
 
     /// What the shaders need to be exact near an origin: it is a multiple of 2⁻³² of the map and a small rest.

@@ -28,7 +28,10 @@ impl Polygons {
     pub fn new(mesh: &PolygonMesh) -> Result<Self, MeshError> {
         let topology = mesh.topology()?;
         let faces = 0..topology.face_count();
-        let vertices: Vec<u32> = faces.clone().flat_map(|face| topology.vertices(face).iter().copied()).collect();
+        let vertices: Vec<u32> = faces
+            .clone()
+            .flat_map(|face| topology.vertices(face).iter().copied())
+            .collect();
         let centre = |face| {
             let corners = topology.vertices(face);
             corners.iter().map(|&v| mesh.positions[v as usize]).sum::<DVec3>() / corners.len() as f64
@@ -36,8 +39,14 @@ impl Polygons {
         let centres: Vec<DVec3> = faces.clone().map(centre).collect();
         let area = |face| area_vector(topology.vertices(face).iter().map(|&v| mesh.positions[v as usize]));
         let face_normals = faces.map(|face| unit_or_up(area(face))).collect();
-        let mut polygons =
-            Self { topology, positions: mesh.positions.clone(), vertices, centres, face_normals, speeds: Vec::new() };
+        let mut polygons = Self {
+            topology,
+            positions: mesh.positions.clone(),
+            vertices,
+            centres,
+            face_normals,
+            speeds: Vec::new(),
+        };
         polygons.speeds = root_speeds(&polygons.topology, |operand| polygons.position(operand));
         Ok(polygons)
     }
@@ -62,7 +71,10 @@ impl Polygons {
 
     pub fn bounding_box(&self) -> (DVec3, DVec3) {
         let points = || self.vertices.iter().map(|&v| self.positions[v as usize]);
-        (points().fold(DVec3::INFINITY, DVec3::min), points().fold(DVec3::NEG_INFINITY, DVec3::max))
+        (
+            points().fold(DVec3::INFINITY, DVec3::min),
+            points().fold(DVec3::NEG_INFINITY, DVec3::max),
+        )
     }
 
     /// The largest coordinate relative to the origin.
@@ -77,7 +89,10 @@ impl Polygons {
 
     /// Positions of vertices and centres relative to the origin, four floats each.
     pub fn position_table(&self, origin: DVec3) -> impl Iterator<Item = f32> {
-        self.positions.iter().chain(&self.centres).flat_map(move |&p| vector_entry(p - origin))
+        self.positions
+            .iter()
+            .chain(&self.centres)
+            .flat_map(move |&p| vector_entry(p - origin))
     }
 
     pub fn face_normal_table(&self) -> impl Iterator<Item = f32> {
@@ -92,7 +107,9 @@ pub fn vector_entry(v: DVec3) -> [f32; 4] {
 
 /// Twice the area of a polygon along its mean normal (Newell), about its first corner.
 fn area_vector(mut corners: impl Iterator<Item = DVec3>) -> DVec3 {
-    let Some(first) = corners.next() else { return DVec3::ZERO };
+    let Some(first) = corners.next() else {
+        return DVec3::ZERO;
+    };
     let (mut sum, mut last) = (DVec3::ZERO, DVec3::ZERO);
     for corner in corners {
         sum += last.cross(corner - first);
@@ -130,7 +147,9 @@ impl Mesh {
     /// # Errors
     /// [`MeshError`] if the faces are no surface or a position is not finite.
     pub fn new(mesh: &PolygonMesh) -> Result<Self, MeshError> {
-        Ok(Self { polygons: Polygons::new(mesh)? })
+        Ok(Self {
+            polygons: Polygons::new(mesh)?,
+        })
     }
 
     fn jet(&self, at: RootPoint) -> FieldJet {
@@ -151,8 +170,17 @@ impl Surface for Mesh {
         let FieldJet { value, du, dv, duv } = self.jet(at);
         let mean = self.polygons.face_normals[at.face as usize];
         let is_triangle = self.topology().corner_count(at.face) == 3;
-        let normal = if is_triangle { mean } else { frame_normal(du, dv, duv, mean) };
-        SurfaceFrame { position: value, du, dv, normal }
+        let normal = if is_triangle {
+            mean
+        } else {
+            frame_normal(du, dv, duv, mean)
+        };
+        SurfaceFrame {
+            position: value,
+            du,
+            dv,
+            normal,
+        }
     }
 
     fn bound(&self, leaf: &Place) -> SurfaceBound {
@@ -184,8 +212,13 @@ impl Surface for Mesh {
         let half_edges = polygons.vertices.iter().zip(&polygons.speeds);
         SurfaceTables {
             params: uniform(&params),
-            a: polygons.position_table(origin).chain(polygons.face_normal_table()).collect(),
-            b: half_edges.flat_map(|(&vertex, &speed)| [vertex, round_up(speed).to_bits()]).collect(),
+            a: polygons
+                .position_table(origin)
+                .chain(polygons.face_normal_table())
+                .collect(),
+            b: half_edges
+                .flat_map(|(&vertex, &speed)| [vertex, round_up(speed).to_bits()])
+                .collect(),
             heights: None,
             height_bounds: None,
         }

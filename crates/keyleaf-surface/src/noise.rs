@@ -34,7 +34,11 @@ fn hash3([x, y, z]: [u32; 3], seed: u32) -> [u32; 3] {
         let y = y.wrapping_add(z.wrapping_mul(x));
         [x, y, z.wrapping_add(x.wrapping_mul(y))]
     };
-    let v = mix([first(x, seed), first(y, seed ^ 0x85eb_ca6b), first(z, seed ^ 0xc2b2_ae35)]);
+    let v = mix([
+        first(x, seed),
+        first(y, seed ^ 0x85eb_ca6b),
+        first(z, seed ^ 0xc2b2_ae35),
+    ]);
     mix(v.map(|c| c ^ (c >> 16)))
 }
 
@@ -45,7 +49,10 @@ fn component(hash: u32) -> f64 {
 
 /// The quintic fade and its derivative (Perlin, "Improving Noise", SIGGRAPH 2002).
 fn fade(f: f64) -> [f64; 2] {
-    [f * f * f * (f * (f * 6.0 - 15.0) + 10.0), 30.0 * f * f * (f - 1.0) * (f - 1.0)]
+    [
+        f * f * f * (f * (f * 6.0 - 15.0) + 10.0),
+        30.0 * f * f * (f - 1.0) * (f - 1.0),
+    ]
 }
 
 /// (value, gradient a cell) at `cell` + f. The lattice repeats after `mask` + 1 cells.
@@ -106,14 +113,27 @@ mod tests {
             let n = noise3(cell, f, 5);
             assert!(n[0].abs() <= NOISE3_LARGEST && n[1].hypot(n[2]).hypot(n[3]) <= NOISE3_SLOPE);
             for axis in 0..3 {
-                let moved = |by: f64| noise3(cell, std::array::from_fn(|k| f[k] + if k == axis { by } else { 0.0 }), 5)[0];
+                let moved = |by: f64| {
+                    noise3(
+                        cell,
+                        std::array::from_fn(|k| f[k] + if k == axis { by } else { 0.0 }),
+                        5,
+                    )[0]
+                };
                 assert!(((moved(step) - moved(-step)) / (2.0 * step) - n[axis + 1]).abs() < 1e-6);
             }
             let (cell, f) = ([i & 255, (77 * i) & 255], [f[0], f[1]]);
             let n = noise2(cell, 255, f, 5);
             assert!(n[0].abs() <= NOISE2_LARGEST && n[1].hypot(n[2]) <= NOISE2_SLOPE);
             for axis in 0..2 {
-                let moved = |by: f64| noise2(cell, 255, std::array::from_fn(|k| f[k] + if k == axis { by } else { 0.0 }), 5)[0];
+                let moved = |by: f64| {
+                    noise2(
+                        cell,
+                        255,
+                        std::array::from_fn(|k| f[k] + if k == axis { by } else { 0.0 }),
+                        5,
+                    )[0]
+                };
                 assert!(((moved(step) - moved(-step)) / (2.0 * step) - n[axis + 1]).abs() < 1e-6);
             }
         }
@@ -123,7 +143,10 @@ mod tests {
     fn noise_is_continuous_from_cell_to_cell_and_around_the_border() {
         let (a, b) = (noise2([255, 3], 255, [1.0, 0.3], 9), noise2([0, 3], 255, [0.0, 0.3], 9));
         assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12));
-        let (a, b) = (noise3([u32::MAX, 3, 4], [1.0, 0.3, 0.2], 9), noise3([0, 3, 4], [0.0, 0.3, 0.2], 9));
+        let (a, b) = (
+            noise3([u32::MAX, 3, 4], [1.0, 0.3, 0.2], 9),
+            noise3([0, 3, 4], [0.0, 0.3, 0.2], 9),
+        );
         assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-12));
     }
 
@@ -146,6 +169,9 @@ mod tests {
                 greatest = greatest.max(sum);
             }
         }
-        assert!((NOISE2_SLOPE - 1e-9..=NOISE2_SLOPE + 1e-9).contains(&greatest), "{greatest}");
+        assert!(
+            (NOISE2_SLOPE - 1e-9..=NOISE2_SLOPE + 1e-9).contains(&greatest),
+            "{greatest}"
+        );
     }
 }

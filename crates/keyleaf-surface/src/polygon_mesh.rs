@@ -58,7 +58,8 @@ impl Faces {
 
     /// The vertices of a face.
     pub fn get(&self, face: usize) -> Option<&[u32]> {
-        self.first_corner(face).map(|first| &self.corners[first..self.ends[face]])
+        self.first_corner(face)
+            .map(|first| &self.corners[first..self.ends[face]])
     }
 
     /// The vertices of every face.
@@ -137,7 +138,11 @@ impl PolygonMesh {
         ];
         for (attribute, found) in counts {
             if let Some(found) = found.filter(|&found| found != corners) {
-                return Err(MeshError::AttributeCount { attribute, corners, found });
+                return Err(MeshError::AttributeCount {
+                    attribute,
+                    corners,
+                    found,
+                });
             }
         }
         let Some(uvs) = &self.corners.uvs else { return Ok(()) };
@@ -148,7 +153,12 @@ impl PolygonMesh {
                 let face = self.faces.ends.partition_point(|&end| end <= index);
                 let corner = index - self.faces.first_corner(face).unwrap_or(0);
                 let [u, v] = uvs[index];
-                Err(MeshError::TextureCoordinate { face: face as u32, corner: corner as u32, u, v })
+                Err(MeshError::TextureCoordinate {
+                    face: face as u32,
+                    corner: corner as u32,
+                    u,
+                    v,
+                })
             }
         }
     }
@@ -162,7 +172,10 @@ mod tests {
         PolygonMesh {
             positions: vec![DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y],
             faces: [[0, 1, 2], [2, 3, 0]].into_iter().collect(),
-            corners: CornerAttributes { uvs, ..CornerAttributes::default() },
+            corners: CornerAttributes {
+                uvs,
+                ..CornerAttributes::default()
+            },
         }
     }
 
@@ -173,10 +186,20 @@ mod tests {
         assert!(matches!(mesh.topology(), Err(MeshError::Position { vertex: 2, .. })));
         mesh.positions[2].y = 1e38;
         assert!(matches!(mesh.topology(), Err(MeshError::Position { vertex: 2, .. })));
-        assert!(matches!(quad(Some(vec![[0.0; 2]; 5])).topology(), Err(MeshError::AttributeCount { corners: 6, found: 5, .. })));
+        assert!(matches!(
+            quad(Some(vec![[0.0; 2]; 5])).topology(),
+            Err(MeshError::AttributeCount {
+                corners: 6,
+                found: 5,
+                ..
+            })
+        ));
         let mut uvs = vec![[0.0; 2]; 6];
         uvs[4][1] = f32::INFINITY;
-        assert!(matches!(quad(Some(uvs)).topology(), Err(MeshError::TextureCoordinate { face: 1, corner: 1, .. })));
+        assert!(matches!(
+            quad(Some(uvs)).topology(),
+            Err(MeshError::TextureCoordinate { face: 1, corner: 1, .. })
+        ));
         assert!(matches!(PolygonMesh::default().topology(), Err(MeshError::Topology(_))));
         assert!(quad(Some(vec![[0.5; 2]; 6])).topology().is_ok());
     }

@@ -20,7 +20,10 @@ impl QuadCoord {
                 + 2 * u64::from(at.x) * u64::from(corner_of(at.root) & 1)
                 + 2 * u64::from(at.y) * u64::from(corner_of(at.root + 1) & 1)
         };
-        Self { u: sum(|corner| (corner + 1) >> 1), v: sum(|corner| corner >> 1) }
+        Self {
+            u: sum(|corner| (corner + 1) >> 1),
+            v: sum(|corner| corner >> 1),
+        }
     }
 
     /// As numbers in 0..=1, exact.

@@ -62,7 +62,13 @@ impl Jet {
         let mut value = [z / 3.0, z / 3.0, z / 3.0, 0.0];
         value[at.root as usize] += x;
         value[(at.root as usize + 1) % 3] += y;
-        Self { operands, value, du: [-1.0, 1.0, 0.0, 0.0], dv: [-1.0, 0.0, 1.0, 0.0], duv: [0.0; 4] }
+        Self {
+            operands,
+            value,
+            du: [-1.0, 1.0, 0.0, 0.0],
+            dv: [-1.0, 0.0, 1.0, 0.0],
+            duv: [0.0; 4],
+        }
     }
 
     fn fan([a, b]: [u32; 2], at: RootPoint) -> Self {
@@ -81,14 +87,23 @@ impl Jet {
 
     /// The sum for a field.
     pub fn value(&self, field: impl Fn(Operand) -> DVec3) -> DVec3 {
-        self.operands.iter().zip(self.value).map(|(&operand, weight)| field(operand) * weight).sum()
+        self.operands
+            .iter()
+            .zip(self.value)
+            .map(|(&operand, weight)| field(operand) * weight)
+            .sum()
     }
 
     /// The sums for a field, derivatives from differences.
     pub fn field(&self, field: impl Fn(Operand) -> DVec3) -> FieldJet {
         let p = self.operands.map(&field);
         let sum = |w: [f64; 4]| (1..4).map(|i| (p[i] - p[0]) * w[i]).sum();
-        FieldJet { value: self.value(field), du: sum(self.du), dv: sum(self.dv), duv: sum(self.duv) }
+        FieldJet {
+            value: self.value(field),
+            du: sum(self.du),
+            dv: sum(self.dv),
+            duv: sum(self.duv),
+        }
     }
 }
 
@@ -114,7 +129,10 @@ pub fn root_speeds(topology: &Topology, field: impl Fn(Operand) -> DVec3) -> Vec
             return (0..4).map(side).map(|(a, b)| a.distance(b) / 2.0).fold(0.0, f64::max);
         }
         let (a, b) = side(root.root);
-        f64::max(a.distance(b) / 2.0, field(Operand::Centre(root.face)).distance((a + b) / 2.0))
+        f64::max(
+            a.distance(b) / 2.0,
+            field(Operand::Centre(root.face)).distance((a + b) / 2.0),
+        )
     };
     let speeds: Vec<f64> = topology.roots().map(|root| own(&root)).collect();
     over_edges(topology, &speeds)
@@ -122,7 +140,15 @@ pub fn root_speeds(topology: &Topology, field: impl Fn(Operand) -> DVec3) -> Vec
 
 /// The larger of the values of both roots of every mesh edge.
 pub fn over_edges(topology: &Topology, values: &[f64]) -> Vec<f64> {
-    let twin = |root: Place| topology.twin(root.face, root.root).map(|t| topology.half_edge_index(t.face, t.root));
+    let twin = |root: Place| {
+        topology
+            .twin(root.face, root.root)
+            .map(|t| topology.half_edge_index(t.face, t.root))
+    };
     let other = |root| twin(root).map_or(0.0, |index| values[index as usize]);
-    topology.roots().zip(values).map(|(root, &value)| value.max(other(root))).collect()
+    topology
+        .roots()
+        .zip(values)
+        .map(|(root, &value)| value.max(other(root)))
+        .collect()
 }

@@ -92,13 +92,29 @@ impl Terrain {
     /// [`SettingError`] naming the first that is out of range.
     pub fn new(settings: TerrainSettings) -> Result<Self, SettingError> {
         let map = Map::new(DVec2::splat(settings.extent))?;
-        let unit = |name, value: f64| SettingError::check(name, value, (0.0..=1.0).contains(&value), "a number from 0 to 1");
-        SettingError::check("height", settings.height, settings.height.abs() <= 1e15, "a height of at most 1e15")?;
+        let unit =
+            |name, value: f64| SettingError::check(name, value, (0.0..=1.0).contains(&value), "a number from 0 to 1");
+        SettingError::check(
+            "height",
+            settings.height,
+            settings.height.abs() <= 1e15,
+            "a height of at most 1e15",
+        )?;
         let levels = settings.first_level;
-        SettingError::check("first_level", f64::from(levels), (1..=MAX_BITS).contains(&levels), "1 to 28")?;
+        SettingError::check(
+            "first_level",
+            f64::from(levels),
+            (1..=MAX_BITS).contains(&levels),
+            "1 to 28",
+        )?;
         let octaves = settings.octaves;
         let possible = (1..=MAX_BITS + 1 - levels).contains(&octaves);
-        SettingError::check("octaves", f64::from(octaves), possible, "at least 1 and at most 29 - first_level")?;
+        SettingError::check(
+            "octaves",
+            f64::from(octaves),
+            possible,
+            "at least 1 and at most 29 - first_level",
+        )?;
         unit("gain", settings.gain)?;
         unit("ridged", settings.ridged)?;
         unit("contrast", settings.contrast)?;
@@ -110,7 +126,11 @@ impl Terrain {
             ..settings
         };
         let sum: f64 = (0..octaves).map(|octave| settings.gain.powi(octave as i32)).sum();
-        Ok(Self { map, amplitude: round(settings.height / sum), settings })
+        Ok(Self {
+            map,
+            amplitude: round(settings.height / sum),
+            settings,
+        })
     }
 
     fn amplitudes(&self) -> impl Iterator<Item = f64> {
@@ -120,7 +140,12 @@ impl Terrain {
 
     /// (height, d/du, d/dv).
     fn height(&self, at: QuadCoord) -> [f64; 3] {
-        let TerrainSettings { first_level, seed, contrast, .. } = self.settings;
+        let TerrainSettings {
+            first_level,
+            seed,
+            contrast,
+            ..
+        } = self.settings;
         let (mut ground, mut detail, mut strength) = ([0.0; 3], [0.0; 3], [0.0; 3]);
         for (octave, amplitude) in (0..).zip(self.amplitudes()) {
             let bits = first_level + octave;
@@ -162,7 +187,9 @@ impl Terrain {
 
     /// The greatest slopes of the octaves, and of the detail by its changing strength.
     fn slopes(&self) -> impl Iterator<Item = f64> {
-        let slopes = (0..).zip(self.amplitudes()).map(|(octave, a)| self.first_slope() * f64::from(1u32 << octave) * a.abs());
+        let slopes = (0..)
+            .zip(self.amplitudes())
+            .map(|(octave, a)| self.first_slope() * f64::from(1u32 << octave) * a.abs());
         slopes.chain([self.detail() * self.settings.contrast * self.first_slope() * 2.0 / 3.0])
     }
 
@@ -186,7 +213,9 @@ impl Terrain {
 
     fn variation(&self, reach: f64) -> f64 {
         let first = self.first_slope() * reach;
-        let octaves = (0..).zip(self.amplitudes()).map(|(octave, a)| a.abs() * (first * f64::from(1u32 << octave)).min(2.0));
+        let octaves = (0..)
+            .zip(self.amplitudes())
+            .map(|(octave, a)| a.abs() * (first * f64::from(1u32 << octave)).min(2.0));
         octaves.sum::<f64>() + self.detail() * self.settings.contrast * (first * 2.0 / 3.0).min(1.0)
     }
 }
@@ -239,6 +268,12 @@ impl Surface for Terrain {
             steepest_slope: round_up(self.steepest_slope()),
             typical_slope: round_up(self.typical_slope()),
         };
-        SurfaceTables { params: uniform(&params), a: Vec::new(), b: Vec::new(), heights: None, height_bounds: None }
+        SurfaceTables {
+            params: uniform(&params),
+            a: Vec::new(),
+            b: Vec::new(),
+            heights: None,
+            height_bounds: None,
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 /// What a binding of a shader is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Binding {
+pub enum Binding {
     /// A uniform buffer.
     Uniform,
     /// A storage buffer that is only read.

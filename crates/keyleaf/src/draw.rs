@@ -94,7 +94,7 @@ impl LeafPipeline {
             (true, true) => &[Binding::Uniform, Binding::Read, Binding::Colour, Binding::Sampler],
         };
         let look_layout = binding::layout(device, "keyleaf.draw.look", wgpu::ShaderStages::VERTEX_FRAGMENT, look);
-        let surface = surface_layout(device, kind.has_heights);
+        let surface = surface_layout(device, kind.surface)?;
         let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("keyleaf.draw"),
             bind_group_layouts: &[Some(&leaf_layout), Some(&surface), Some(&look_layout)],

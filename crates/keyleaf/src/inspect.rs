@@ -56,7 +56,7 @@ impl Inspector {
     /// [`KeyleafError::Compose`] if a shader file is missing.
     pub fn new(device: &wgpu::Device, kind: &Kind) -> Result<Self, KeyleafError> {
         use Binding::{Read, Uniform, Write};
-        let surface = surface_layout(device, kind.has_heights);
+        let surface = surface_layout(device, kind.surface)?;
         let make = |file: &'static str, entry: &str, bindings: &[Binding]| -> Result<_, KeyleafError> {
             let label = format!("keyleaf.{entry}");
             let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {

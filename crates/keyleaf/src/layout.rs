@@ -91,7 +91,7 @@ pub mod state {
     }
 }
 
-/// Counters that the passes share. 224 bytes.
+/// Counters that the passes share. 236 bytes.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable, Default)]
 pub struct Control {
@@ -141,8 +141,14 @@ pub struct Control {
     pub last_merges: u32,
     /// Wishes that the next lower pressure would turn into splits.
     pub near: u32,
-    /// Wishes of the metric alone.
-    pub metric_wishes: u32,
+    /// Passes since the pressure changed.
+    pub since_step: u32,
+    /// Pressure at which wishes did not fit in the present view; -1: none.
+    pub failed: i32,
+    /// Of the view that `failed` is of.
+    pub view_serial: u32,
+    /// Padding.
+    pub unused: u32,
     /// Wishes by bucket.
     pub wishes: [u32; 32],
 }

@@ -17,7 +17,7 @@
 
 #![deny(missing_docs)]
 
-mod binding;
+pub mod binding;
 pub mod draw;
 mod error;
 mod grid;

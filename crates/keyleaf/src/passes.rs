@@ -13,8 +13,6 @@ use Binding::{Absent, Read, Uniform, Write};
 pub struct Kind {
     /// WGSL file of the surface.
     pub surface: &'static str,
-    /// Whether the surface has height textures.
-    pub has_heights: bool,
     /// WGSL file of the metric.
     pub metric: &'static str,
     /// How neighbours are kept from cracking.
@@ -28,8 +26,10 @@ pub struct Module {
     pub name: &'static str,
     /// WGSL files, without those that they require.
     pub files: Vec<&'static str>,
-    pub(crate) bindings: &'static [Binding],
-    pub(crate) uses_surface: bool,
+    /// What binding i of its group 0 is.
+    pub bindings: &'static [Binding],
+    /// Whether its group 1 is the surface's.
+    pub uses_surface: bool,
     /// Entry points, each a pipeline.
     pub entries: &'static [&'static str],
 }
@@ -91,7 +91,7 @@ impl Passes {
     /// # Errors
     /// [`KeyleafError::Compose`] if a shader file is missing.
     pub fn new(device: &wgpu::Device, kind: Kind) -> Result<Self, KeyleafError> {
-        let surface_layout = surface_layout(device, kind.has_heights);
+        let surface_layout = surface_layout(device, kind.surface)?;
         let mut stages = Vec::new();
         for module in modules(&kind) {
             stages.push((module.name, stage(device, &module, &surface_layout)?));

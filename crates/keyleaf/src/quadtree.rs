@@ -62,6 +62,8 @@ pub struct Quadtree {
     world_from_object: DAffine3,
     reader: StatisticsReader,
     needs_measure: bool,
+    /// Of the last update.
+    frame: Option<Frame>,
 }
 
 struct Groups {
@@ -79,7 +81,6 @@ impl Quadtree {
     pub fn kind(surface: &dyn Surface, settings: &Settings) -> Kind {
         Kind {
             surface: surface.shader(),
-            has_heights: surface.has_heights(),
             metric: settings.metric.shader(),
             balance: settings.balance,
         }
@@ -112,6 +113,7 @@ impl Quadtree {
             world_from_object,
             reader: StatisticsReader::new(device),
             needs_measure: true,
+            frame: None,
         };
         let roots: Vec<Place> = quadtree.surface.topology().roots().collect();
         quadtree.write_leaves(queue, &roots);
@@ -200,6 +202,7 @@ impl Quadtree {
         let control = Control {
             leaves: leaves.len() as u32,
             allocated: leaves.len() as u32,
+            failed: -1,
             ..Control::default()
         };
         queue.write_buffer(&self.buffers.control, 0, bytemuck::bytes_of(&control));
@@ -229,7 +232,12 @@ impl Quadtree {
         timestamps: Option<wgpu::ComputePassTimestampWrites<'_>>,
     ) {
         self.follow(queue, view);
-        let frame = Frame::new(view, &self.world_from_object, self.surface_buffers.origin, &self.settings);
+        let mut frame = Frame::new(view, &self.world_from_object, self.surface_buffers.origin, &self.settings);
+        frame.view_serial = self.frame.map_or(0, |last| last.view_serial);
+        if self.frame != Some(frame) {
+            frame.view_serial = frame.view_serial.wrapping_add(1);
+        }
+        self.frame = Some(frame);
         let mut bytes = encase::UniformBuffer::new(Vec::new());
         if bytes.write(&frame).is_ok() {
             queue.write_buffer(&self.buffers.frame, 0, &bytes.into_inner());
@@ -247,19 +255,17 @@ impl Quadtree {
         self.reader.record(encoder, &self.buffers.control);
     }
 
-    /// Moves the origin when the eye is so far from it that f32 would be seen, in object space.
+    /// Puts the origin of positions near the eye, on a lattice so coarse that it seldom moves. A function of the view alone: what is
+    /// drawn must not depend on where the camera came from. Seen from far away, the nearest point of the object counts.
     fn follow(&mut self, queue: &wgpu::Queue, view: &View) {
         let eye = self.world_from_object.inverse().transform_point3(view.eye);
-        let cell = view.origin_cell() / self.world_from_object.matrix3.determinant().abs().cbrt().max(f64::MIN_POSITIVE);
+        let scale = self.world_from_object.matrix3.determinant().abs().cbrt().max(f64::MIN_POSITIVE);
+        let cell = (view.origin_cell() / scale).log2().floor().exp2();
         let (least, most) = self.surface.bounding_box();
-        let nearest = eye.clamp(least, most);
-        if (nearest - self.surface_buffers.origin).abs().max_element() > cell {
-            // Far outside the object the origin stays: there is nothing near to be exact about.
-            let origin = (nearest / cell).round() * cell;
-            if origin != self.surface_buffers.origin {
-                self.surface_buffers.move_origin(queue, self.surface.as_ref(), origin);
-                self.needs_measure = true;
-            }
+        let origin = (eye.clamp(least, most) / cell).round() * cell;
+        if origin != self.surface_buffers.origin {
+            self.surface_buffers.move_origin(queue, self.surface.as_ref(), origin);
+            self.needs_measure = true;
         }
     }
 

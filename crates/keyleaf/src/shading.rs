@@ -112,32 +112,44 @@ impl Channel {
 pub struct Shading {
     /// World.
     pub eye: Vec3,
-    /// Times the colour.
-    pub sun_intensity: f32,
+    /// Factor before the tone curve.
+    pub exposure: f32,
     /// Towards the sun, world, unit.
     pub sun_direction: Vec3,
-    /// Of the sky, as a factor.
-    pub ambient: f32,
-    /// Of the sun.
+    /// Of the wireframe, pixels.
+    pub line_width: f32,
+    /// Colour and strength of the sun.
     pub sun_colour: Vec3,
     /// A world unit; 0: clear.
     pub fog_density: f32,
+    /// From the whole sky.
+    pub ambient: Vec3,
+    /// Height at which a terrain has the colour `low`, world units.
+    pub lowest: f32,
+    /// Of the haze.
+    pub fog_colour: Vec3,
+    /// Height at which a terrain has the colour `high`, world units.
+    pub highest: f32,
     /// Of the surface.
     pub base_colour: Vec3,
-    /// Of the wireframe, pixels.
-    pub line_width: f32,
-    /// Of the sky.
-    pub zenith: Vec3,
-    /// Lowest height of the scene, world units.
-    pub lowest: f32,
-    /// Of the sky.
-    pub horizon: Vec3,
-    /// Highest height of the scene, world units.
-    pub highest: f32,
-    /// Below the horizon.
-    pub ground: Vec3,
-    /// Of the tone curve.
-    pub exposure: f32,
+    /// World units.
+    pub snow_line: f32,
+    /// Terrain: low ground.
+    pub low: Vec3,
+    /// Tangent of the slope up to which a terrain is not `steep`.
+    pub gentle: f32,
+    /// Terrain: high ground.
+    pub high: Vec3,
+    /// Tangent of the slope from which on it is.
+    pub steepest: f32,
+    /// Terrain: rock.
+    pub steep: Vec3,
+    /// Padding.
+    pub unused: f32,
+    /// Terrain: snow.
+    pub snow: Vec3,
+    /// Padding.
+    pub unused_too: f32,
     /// Of the wireframe, with its opacity.
     pub line_colour: Vec4,
 }
@@ -146,19 +158,25 @@ impl Default for Shading {
     fn default() -> Self {
         Self {
             eye: Vec3::ZERO,
-            sun_intensity: 3.2,
+            exposure: 1.0,
             sun_direction: Vec3::new(0.45, 0.62, 0.64).normalize(),
-            ambient: 0.85,
-            sun_colour: Vec3::new(1.0, 0.94, 0.84),
-            fog_density: 0.0,
-            base_colour: Vec3::splat(0.55),
             line_width: 1.25,
-            zenith: Vec3::new(0.16, 0.33, 0.66),
+            sun_colour: Vec3::new(2.6, 2.4, 2.1),
+            fog_density: 0.0,
+            ambient: Vec3::new(0.22, 0.27, 0.36),
             lowest: 0.0,
-            horizon: Vec3::new(0.62, 0.74, 0.86),
+            fog_colour: Vec3::new(0.55, 0.66, 0.82),
             highest: 1.0,
-            ground: Vec3::new(0.20, 0.18, 0.16),
-            exposure: 0.75,
+            base_colour: Vec3::splat(0.5),
+            snow_line: f32::MAX,
+            low: Vec3::new(0.10, 0.13, 0.05),
+            gentle: 0.5,
+            high: Vec3::new(0.27, 0.22, 0.13),
+            steepest: 1.0,
+            steep: Vec3::new(0.25, 0.23, 0.21),
+            unused: 0.0,
+            snow: Vec3::new(0.82, 0.86, 0.92),
+            unused_too: 0.0,
             line_colour: Vec4::new(0.02, 0.03, 0.05, 0.85),
         }
     }

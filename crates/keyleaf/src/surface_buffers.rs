@@ -10,11 +10,19 @@ use wgpu::util::DeviceExt;
 const BINDINGS: [Binding; 6] =
     [Binding::Uniform, Binding::Read, Binding::Read, Binding::Read, Binding::Texels, Binding::Texels];
 
-/// The layout of group 1 for a surface with or without height textures.
-pub(crate) fn surface_layout(device: &wgpu::Device, has_heights: bool) -> wgpu::BindGroupLayout {
-    let bindings = if has_heights { &BINDINGS[..] } else { &BINDINGS[..4] };
+/// The layout of group 1 for the bindings that a surface's shader declares.
+pub(crate) fn surface_layout(device: &wgpu::Device, file: &str) -> Result<wgpu::BindGroupLayout, KeyleafError> {
+    let bindings: Vec<Binding> = declared(file)?.iter().zip(BINDINGS).map(|(is, b)| if *is { b } else { Binding::Absent }).collect();
     let stages = wgpu::ShaderStages::COMPUTE | wgpu::ShaderStages::VERTEX;
-    binding::layout(device, "keyleaf.surface", stages, bindings)
+    Ok(binding::layout(device, "keyleaf.surface", stages, &bindings))
+}
+
+/// Which bindings of group 1 a surface's shader declares, the topology in any case.
+fn declared(file: &str) -> Result<[bool; BINDINGS.len()], KeyleafError> {
+    let source = keyleaf_shaders::compose(&[file])?;
+    let mut all = std::array::from_fn(|i| source.contains(&format!("@group(1) @binding({i})")));
+    all[1] = true;
+    Ok(all)
 }
 
 /// The tables of one surface, relative to one origin.
@@ -44,28 +52,27 @@ impl SurfaceBuffers {
         let topology = buffer(device, "keyleaf.surface.topology", bytemuck::cast_slice(&topology), wgpu::BufferUsages::STORAGE);
         let a = buffer(device, "keyleaf.surface.a", bytemuck::cast_slice(&tables.a), wgpu::BufferUsages::STORAGE);
         let b = buffer(device, "keyleaf.surface.b", bytemuck::cast_slice(&tables.b), wgpu::BufferUsages::STORAGE);
-        let heights = tables.heights.as_ref().map(|data| texture(device, queue, "keyleaf.surface.heights", data));
-        let bounds = tables.height_bounds.as_ref().map(|data| texture(device, queue, "keyleaf.surface.height_bounds", data));
+        let upload = |label, data: &Option<std::sync::Arc<TextureData>>| data.as_ref().map(|data| texture(device, queue, label, data));
+        let heights = upload("keyleaf.surface.heights", &tables.heights);
+        let bounds = upload("keyleaf.surface.height_bounds", &tables.height_bounds);
 
-        let mut resources = vec![
-            (0, params.as_entire_binding()),
-            (1, topology.as_entire_binding()),
-            (2, a.as_entire_binding()),
-            (3, b.as_entire_binding()),
-        ];
-        if let (Some(heights), Some(bounds)) = (&heights, &bounds) {
-            resources.push((4, wgpu::BindingResource::TextureView(heights)));
-            resources.push((5, wgpu::BindingResource::TextureView(bounds)));
+        let declared = declared(surface.shader())?;
+        let mut resources = Vec::new();
+        for (number, buffer) in [(0, &params), (1, &topology), (2, &a), (3, &b)] {
+            if declared[number as usize] {
+                resources.push((number, buffer.as_entire_binding()));
+            }
         }
+        resources.extend(heights.iter().map(|view| (4, wgpu::BindingResource::TextureView(view))));
+        resources.extend(bounds.iter().map(|view| (5, wgpu::BindingResource::TextureView(view))));
         let group = binding::group(device, "keyleaf.surface", layout, &resources);
-        let mut sizes = vec![
-            ("surface parameters", params.size()),
-            ("topology", topology.size()),
-            ("surface A", a.size()),
-            ("surface B", b.size()),
-        ];
-        sizes.extend(tables.heights.iter().map(|t| ("heights", t.bytes())));
-        sizes.extend(tables.height_bounds.iter().map(|t| ("height bounds", t.bytes())));
+
+        let bytes = |data: &TextureData| data.mips.iter().map(|mip| 4 * mip.len() as u64).sum();
+        let mut sizes = vec![("surface parameters", params.size()), ("topology", topology.size())];
+        sizes.extend(declared[2].then(|| ("surface A", a.size())));
+        sizes.extend(declared[3].then(|| ("surface B", b.size())));
+        sizes.extend(tables.heights.iter().map(|t| ("heights", bytes(t))));
+        sizes.extend(tables.height_bounds.iter().map(|t| ("height bounds", bytes(t))));
         Ok(Self { group, origin, sizes, params, a })
     }
 
@@ -88,7 +95,7 @@ fn check_sizes(device: &wgpu::Device, tables: &SurfaceTables, topology_words: us
         }
     }
     let side = limits.max_texture_dimension_2d;
-    for data in tables.heights.iter().chain(&tables.height_bounds) {
+    for data in tables.heights.iter().chain(tables.height_bounds.iter()) {
         if data.width > side || data.height > side {
             return Err(KeyleafError::TextureTooLarge { width: data.width, height: data.height, limit: side });
         }

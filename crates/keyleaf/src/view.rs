@@ -163,6 +163,8 @@ pub struct Frame {
     pub target_leaves: u32,
     /// k.
     pub base_grid: u32,
+    /// Another number for another view; the quadtree counts.
+    pub view_serial: u32,
 }
 
 impl Frame {
@@ -208,6 +210,7 @@ impl Frame {
             table_mask: crate::layout::table_entries(settings.capacity) - 1,
             target_leaves: settings.target_leaves,
             base_grid: settings.base_grid,
+            view_serial: 0,
         }
     }
 }

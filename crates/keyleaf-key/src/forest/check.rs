@@ -51,12 +51,7 @@ pub fn violations(topology: &Topology, leaves: impl IntoIterator<Item = Place>) 
         }
     }
     let is_there = |node: &Place| set.contains(node) || split.contains(node);
-    found.extend(
-        topology
-            .roots()
-            .filter(|root| !is_there(root))
-            .map(Violation::Gap),
-    );
+    found.extend(topology.roots().filter(|root| !is_there(root)).map(Violation::Gap));
     found.extend(set.intersection(&split).copied().map(Violation::Overlap));
     for &node in &split {
         let missing = |other: &Place| !split.contains(other);
@@ -105,18 +100,14 @@ struct DrawnEdge {
 /// a closed conforming mesh, open only where the control mesh is.
 ///
 /// Ends are compared as [`Site`]s. The roots of the points must exist. Time n log n in the number of triangles.
-pub fn cracks(
-    topology: &Topology,
-    triangles: impl IntoIterator<Item = [RootPoint; 3]>,
-) -> Vec<Crack> {
+pub fn cracks(topology: &Topology, triangles: impl IntoIterator<Item = [RootPoint; 3]>) -> Vec<Crack> {
     let mut edges: Vec<DrawnEdge> = triangles
         .into_iter()
         .flat_map(|[o, r, u]| [[o, r], [r, u], [u, o]])
         .map(|points| {
             let [from, to] = points.map(|point| Site::of(topology, point));
-            let on_boundary = |point: &RootPoint| {
-                point.is_on_mesh_edge() && topology.twin(point.face, point.root).is_none()
-            };
+            let on_boundary =
+                |point: &RootPoint| point.is_on_mesh_edge() && topology.twin(point.face, point.root).is_none();
             DrawnEdge {
                 ends: [from.min(to), from.max(to)],
                 is_forward: from < to,
@@ -125,10 +116,7 @@ pub fn cracks(
         })
         .collect();
     edges.sort_unstable();
-    edges
-        .chunk_by(|a, b| a.ends == b.ends)
-        .filter_map(crack)
-        .collect()
+    edges.chunk_by(|a, b| a.ends == b.ends).filter_map(crack).collect()
 }
 
 /// What is wrong with all drawn edges between the same two ends.

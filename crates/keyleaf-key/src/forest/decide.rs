@@ -32,9 +32,7 @@ impl Forest<'_> {
                         let request = changes.requests.entry(half).or_default();
                         *request = request.max(published.wish);
                     }
-                } else if h(self.topology, leaf)
-                    .is_none_or(|other| pass.wants(other) && !self.is_blocked(other))
-                {
+                } else if h(self.topology, leaf).is_none_or(|other| pass.wants(other) && !self.is_blocked(other)) {
                     changes.splits.push(leaf);
                 }
             } else if let Some((parent, 0)) = leaf.ascend()
@@ -79,8 +77,7 @@ impl Pass<'_> {
 
     /// Whether the node and the other half of its diamond become leaves.
     fn may_merge(&self, node: Place) -> bool {
-        self.half_may_merge(node)
-            && h(self.forest.topology, node).is_none_or(|other| self.half_may_merge(other))
+        self.half_may_merge(node) && h(self.forest.topology, node).is_none_or(|other| self.half_may_merge(other))
     }
 
     fn half_may_merge(&self, half: Place) -> bool {

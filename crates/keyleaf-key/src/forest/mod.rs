@@ -96,18 +96,11 @@ impl<'t> Forest<'t> {
 
     /// These leaves, which are taken to have been there for a pass and have published nothing. [`Forest::invariants`] tells
     /// whether they are a leaf set.
-    pub fn with_leaves(
-        topology: &'t Topology,
-        max_level: u32,
-        leaves: impl IntoIterator<Item = Place>,
-    ) -> Self {
+    pub fn with_leaves(topology: &'t Topology, max_level: u32, leaves: impl IntoIterator<Item = Place>) -> Self {
         Self {
             topology,
             max_level: max_level.min(MAX_LEVEL),
-            leaves: leaves
-                .into_iter()
-                .map(|leaf| (leaf, Published::default()))
-                .collect(),
+            leaves: leaves.into_iter().map(|leaf| (leaf, Published::default())).collect(),
             requests: BTreeMap::new(),
             newcomers: BTreeSet::new(),
         }
@@ -148,9 +141,7 @@ impl<'t> Forest<'t> {
                     0.0
                 },
                 merge: !self.newcomers.contains(leaf)
-                    && leaf
-                        .parent()
-                        .is_some_and(|parent| wish(metric(&parent)) <= 1.0),
+                    && leaf.parent().is_some_and(|parent| wish(metric(&parent)) <= 1.0),
             };
         }
         self.requests.clear();
@@ -191,9 +182,7 @@ impl<'t> Forest<'t> {
 
     /// The triangles that are drawn, those of pairs merged: corners in the order O, R, U.
     pub fn drawn(&self) -> impl Iterator<Item = [RootPoint; 3]> {
-        self.leaves
-            .keys()
-            .filter_map(|leaf| leaf.drawn(self.is_blocked(*leaf)))
+        self.leaves.keys().filter_map(|leaf| leaf.drawn(self.is_blocked(*leaf)))
     }
 
     /// What breaks the cover of the roots or an invariant, nothing after any number of passes.
@@ -206,11 +195,8 @@ impl<'t> Forest<'t> {
         cracks(self.topology, self.drawn())
     }
 
-    /// What [`Pressure`](crate::Pressure) watches, after a pass that changed `changed` leaves.
-    pub fn census(&self, changed: usize) -> Census {
-        Census::of(
-            self.leaves.values().map(|published| published.wish),
-            changed,
-        )
+    /// What [`Pressure`](crate::Pressure) watches, after a pass that changed `changed` leaves, with room for `capacity`.
+    pub fn census(&self, changed: usize, capacity: usize) -> Census {
+        Census::of(self.leaves.values().map(|published| published.wish), changed, capacity)
     }
 }

@@ -24,10 +24,7 @@ pub fn y(topology: &Topology, node: Key) -> Key {
         (Some(parent), Some(3)) => parent.child(2),
         (Some(parent), Some(0)) => y(topology, parent).child(3),
         (Some(parent), _) => x(topology, parent).child(1),
-        (None, _) => Key::of_root(
-            node.face(),
-            (node.root() + 1) % topology.corner_count(node.face()),
-        ),
+        (None, _) => Key::of_root(node.face(), (node.root() + 1) % topology.corner_count(node.face())),
     }
 }
 

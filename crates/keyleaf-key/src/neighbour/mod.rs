@@ -89,9 +89,6 @@ fn across_leg(topology: &Topology, node: Place, turns: u32, on_x_axis: u32) -> P
             ..node
         }
     } else {
-        Place {
-            orientation,
-            ..node
-        }
+        Place { orientation, ..node }
     }
 }

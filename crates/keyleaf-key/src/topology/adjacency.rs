@@ -58,11 +58,7 @@ pub(super) fn half_edges(face_first: &[u32]) -> Vec<HalfEdge> {
 }
 
 /// The first half-edge that starts at each vertex.
-pub(super) fn vertex_owners(
-    vertex_count: usize,
-    half_edges: &[HalfEdge],
-    vertices: &[u32],
-) -> Vec<Option<HalfEdge>> {
+pub(super) fn vertex_owners(vertex_count: usize, half_edges: &[HalfEdge], vertices: &[u32]) -> Vec<Option<HalfEdge>> {
     let mut owners = vec![None; vertex_count];
     for (&half_edge, &vertex) in half_edges.iter().zip(vertices) {
         owners[vertex as usize].get_or_insert(half_edge);
@@ -90,9 +86,7 @@ pub(super) fn twins(
     face_first: &[u32],
     vertices: &[u32],
 ) -> Result<Vec<Option<HalfEdge>>, TopologyError> {
-    let polygon = |face: u32| {
-        &vertices[face_first[face as usize] as usize..face_first[face as usize + 1] as usize]
-    };
+    let polygon = |face: u32| &vertices[face_first[face as usize] as usize..face_first[face as usize + 1] as usize];
     let mut edges: Vec<Directed> = half_edges
         .iter()
         .enumerate()
@@ -117,11 +111,7 @@ pub(super) fn twins(
                 twins[b.index] = Some(half_edges[a.index]);
             }
             _ => {
-                return Err(why_no_surface(
-                    at_edge,
-                    |index| half_edges[index].face,
-                    polygon,
-                ));
+                return Err(why_no_surface(at_edge, |index| half_edges[index].face, polygon));
             }
         }
     }

@@ -37,9 +37,7 @@ pub enum TopologyError {
         face: u32,
     },
     /// A corner refers to a vertex that is not there.
-    #[error(
-        "corner {corner} of face {face} refers to vertex {vertex}, but there are only {vertex_count} vertices"
-    )]
+    #[error("corner {corner} of face {face} refers to vertex {vertex}, but there are only {vertex_count} vertices")]
     IndexOutOfRange {
         /// The face.
         face: u32,

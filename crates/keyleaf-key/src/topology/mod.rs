@@ -114,8 +114,7 @@ impl Topology {
 
     /// The vertices of a face, by corner.
     pub fn vertices(&self, face: u32) -> &[u32] {
-        &self.vertices
-            [self.face_first[face as usize] as usize..self.face_first[face as usize + 1] as usize]
+        &self.vertices[self.face_first[face as usize] as usize..self.face_first[face as usize + 1] as usize]
     }
 
     /// The vertex at a corner of a face.
@@ -152,9 +151,7 @@ impl Topology {
 
     /// All roots, as places of level 0, in the order of their half-edges.
     pub fn roots(&self) -> impl Iterator<Item = Place> {
-        (0..self.face_count()).flat_map(|face| {
-            (0..self.corner_count(face)).map(move |root| Place::of_root(face, root))
-        })
+        (0..self.face_count()).flat_map(|face| (0..self.corner_count(face)).map(move |root| Place::of_root(face, root)))
     }
 
     /// The table that the shaders read: the numbers F of faces and E of half-edges, F + 1 first half-edges, and twin face and

@@ -12,11 +12,7 @@ fn mixed_polygons_find_their_twins_owners_and_boundaries() -> Result<(), Topolog
     // A quad, a triangle on its right edge, a pentagon on top.
     let mesh = Topology::new(8, [&[0, 1, 2, 3][..], &[1, 4, 2], &[3, 2, 5, 6, 7]])?;
     assert_eq!(
-        (
-            mesh.face_count(),
-            mesh.half_edge_count(),
-            mesh.vertex_count()
-        ),
+        (mesh.face_count(), mesh.half_edge_count(), mesh.vertex_count()),
         (3, 12, 8)
     );
     assert_eq!([0, 1, 2].map(|face| mesh.corner_count(face)), [4, 3, 5]);
@@ -56,10 +52,7 @@ fn malformed_faces_are_named() {
     assert_eq!(error_of(3, &[]), Empty);
     assert_eq!(
         error_of(3, &[&[0, 1, 2], &[0, 1]]),
-        TooFewCorners {
-            face: 1,
-            corners: 2
-        }
+        TooFewCorners { face: 1, corners: 2 }
     );
     assert_eq!(
         error_of(3, &[&[0, 1, 2], &[2, 1, 3]]),
@@ -119,9 +112,7 @@ fn faces_that_form_no_oriented_surface_are_named() {
 #[test]
 fn messages_say_what_where_and_stay_one_line() {
     let fan: Vec<[u32; 3]> = (0..100).map(|i| [0, 1, i + 2]).collect();
-    let message = Topology::new(102, fan)
-        .expect_err("non-manifold")
-        .to_string();
+    let message = Topology::new(102, fan).expect_err("non-manifold").to_string();
     assert_eq!(
         message,
         "the edge between vertices 0 and 1 is used by 100 faces (0, 1, 2, 3, 4, 5, 6, 7, …); a surface has at most 2 at an edge"

@@ -28,30 +28,18 @@ fn lost_doubled_overlapping_and_foreign_leaves_are_found() {
     assert_eq!(violations(&topology, without), [Violation::Gap(lost)]);
 
     let with = |extra: Place| leaves.iter().copied().chain([extra]);
-    assert_eq!(
-        violations(&topology, with(lost)),
-        [Violation::Duplicate(lost)]
-    );
+    assert_eq!(violations(&topology, with(lost)), [Violation::Duplicate(lost)]);
     let parent = lost.ancestors().next().expect("level 2");
-    assert_eq!(
-        violations(&topology, with(parent)),
-        [Violation::Overlap(parent)]
-    );
+    assert_eq!(violations(&topology, with(parent)), [Violation::Overlap(parent)]);
 
     let foreign = [
         Place::of_root(6, 0),
         Place::of_root(0, 4),
-        Place {
-            x: lost.x + 1,
-            ..lost
-        },
+        Place { x: lost.x + 1, ..lost },
         Place { level: 40, ..lost },
     ];
     for place in foreign {
-        assert_eq!(
-            violations(&topology, with(place)),
-            [Violation::NotANode(place)]
-        );
+        assert_eq!(violations(&topology, with(place)), [Violation::NotANode(place)]);
     }
     assert_eq!(violations(&topology, []).len(), 24);
 }
@@ -67,11 +55,7 @@ fn half_a_split_diamond_is_found_and_cracks() {
         violations(&topology, leaves.clone()),
         [Violation::HalfDiamond { split: node, whole }]
     );
-    assert!(
-        !Forest::with_leaves(&topology, 9, leaves)
-            .cracks()
-            .is_empty()
-    );
+    assert!(!Forest::with_leaves(&topology, 9, leaves).cracks().is_empty());
 }
 
 #[test]
@@ -80,14 +64,9 @@ fn a_step_of_two_levels_is_found_and_cracks() {
     let mut leaves = uniform(&topology, 0);
     let root = Place::of_root(1, 0);
     let child = root.child(1);
-    for node in [
-        Some(root),
-        h(&topology, root),
-        Some(child),
-        h(&topology, child),
-    ]
-    .into_iter()
-    .flatten()
+    for node in [Some(root), h(&topology, root), Some(child), h(&topology, child)]
+        .into_iter()
+        .flatten()
     {
         split(&mut leaves, node);
     }
@@ -97,11 +76,7 @@ fn a_step_of_two_levels_is_found_and_cracks() {
         whole: across_outer_leg(&topology, split).expect("level 1"),
     };
     assert_eq!(found, [unbalanced(child), unbalanced(root.child(2))]);
-    assert!(
-        !Forest::with_leaves(&topology, 9, leaves)
-            .cracks()
-            .is_empty()
-    );
+    assert!(!Forest::with_leaves(&topology, 9, leaves).cracks().is_empty());
 }
 
 #[test]
@@ -120,19 +95,12 @@ fn a_pair_drawn_as_two_triangles_is_a_t_junction() {
 #[test]
 fn boundaries_are_no_cracks_but_what_lies_on_them_twice_is() {
     let topology = meshes::open().topology();
-    let mut triangles: Vec<_> = uniform(&topology, 2)
-        .into_iter()
-        .map(Place::corners)
-        .collect();
+    let mut triangles: Vec<_> = uniform(&topology, 2).into_iter().map(Place::corners).collect();
     assert_eq!(cracks(&topology, triangles.clone()), []);
     triangles.push(triangles[0]);
     let found = cracks(&topology, triangles.clone());
     assert_eq!(found.len(), 3);
-    assert!(
-        found
-            .iter()
-            .all(|crack| crack.forward + crack.backward >= 2)
-    );
+    assert!(found.iter().all(|crack| crack.forward + crack.backward >= 2));
     triangles.truncate(triangles.len() - 2);
     assert_eq!(
         cracks(&topology, triangles.clone())

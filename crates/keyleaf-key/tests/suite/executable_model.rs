@@ -33,21 +33,14 @@ impl Model {
         let mut edges = HashMap::new();
         for (face, corners) in (0..).zip(&mesh.faces) {
             for (root, &from) in (0..).zip(corners) {
-                edges.insert(
-                    (from, corners[(root as usize + 1) % corners.len()]),
-                    (face, root),
-                );
+                edges.insert((from, corners[(root as usize + 1) % corners.len()]), (face, root));
             }
         }
         let twins = edges
             .iter()
             .filter_map(|(&(from, to), &edge)| Some((edge, *edges.get(&(to, from))?)))
             .collect();
-        let corner_counts = mesh
-            .faces
-            .iter()
-            .map(|corners| corners.len() as u32)
-            .collect();
+        let corner_counts = mesh.faces.iter().map(|corners| corners.len() as u32).collect();
         Self {
             corner_counts,
             twins,
@@ -59,9 +52,7 @@ impl Model {
         let roots = (0..)
             .zip(&self.corner_counts)
             .flat_map(|(face, &count)| (0..count).map(move |root| (face, root)));
-        roots
-            .map(|(face, root)| ((face, root, vec![]), (0.0, false)))
-            .collect()
+        roots.map(|(face, root)| ((face, root, vec![]), (0.0, false))).collect()
     }
 
     fn x(&self, n: &Node) -> Node {
@@ -93,10 +84,7 @@ impl Model {
 
     fn h(&self, n: &Node) -> Option<Node> {
         let Some(digit) = n.2.last() else {
-            return self
-                .twins
-                .get(&(n.0, n.1))
-                .map(|&(face, root)| (face, root, vec![]));
+            return self.twins.get(&(n.0, n.1)).map(|&(face, root)| (face, root, vec![]));
         };
         let p = parent(n);
         match digit {
@@ -153,9 +141,10 @@ impl Model {
 
         let may_merge = |q: &Node| {
             for d in std::iter::once(q.clone()).chain(self.h(q)) {
-                if children(&d).iter().any(|k| {
-                    leaves.get(k).is_none_or(|published| !published.1) || wants.contains(k)
-                }) {
+                if children(&d)
+                    .iter()
+                    .any(|k| leaves.get(k).is_none_or(|published| !published.1) || wants.contains(k))
+                {
                     return false;
                 }
                 for (m, legs) in [(self.x(&d), [0, 1]), (self.y(&d), [2, 3])] {
@@ -180,9 +169,7 @@ impl Model {
         for n in leaves.keys() {
             if wants.contains(n) {
                 let other = self.h(n);
-                let other_wants = other
-                    .as_ref()
-                    .is_none_or(|h| wants.contains(h) && !blocked(h));
+                let other_wants = other.as_ref().is_none_or(|h| wants.contains(h) && !blocked(h));
                 if other_wants && !blocked(n) {
                     kept.extend(children(n));
                     changed += 1;

@@ -15,17 +15,11 @@ fn node_of(place: Place) -> Node {
 fn place_of(node: &Node) -> Place {
     node.2
         .iter()
-        .fold(Place::of_root(node.0, node.1), |place, digit| {
-            place.child(*digit)
-        })
+        .fold(Place::of_root(node.0, node.1), |place, digit| place.child(*digit))
 }
 
 /// The forest folds requests into the wish when it publishes, the model when it reads.
-fn as_published(
-    leaves: &Leaves,
-    requests: &HashMap<Node, f64>,
-    max_level: u32,
-) -> BTreeMap<Place, Published> {
+fn as_published(leaves: &Leaves, requests: &HashMap<Node, f64>, max_level: u32) -> BTreeMap<Place, Published> {
     let folded = |(node, &(wish, merge)): (&Node, &(f64, bool))| {
         let open = (node.2.len() as u32) < max_level;
         let wish = if open {
@@ -150,13 +144,7 @@ fn update_is_decide_apply_publish() {
         parts.apply(changes.clone());
         parts.publish(&metric);
         assert_eq!(whole.update(&metric, 300), changes);
-        assert_eq!(
-            (&whole.leaves, &whole.requests),
-            (&parts.leaves, &parts.requests)
-        );
+        assert_eq!((&whole.leaves, &whole.requests), (&parts.leaves, &parts.requests));
     }
-    assert_eq!(
-        node_of(place_of(&(2, 1, vec![3, 0, 1]))),
-        (2, 1, vec![3, 0, 1])
-    );
+    assert_eq!(node_of(place_of(&(2, 1, vec![3, 0, 1]))), (2, 1, vec![3, 0, 1]));
 }

@@ -1,7 +1,6 @@
 //! Keys, neighbours, sites and the update, over many meshes: one program, so that it is linked once.
 
 mod checks;
-mod diag;
 mod executable_model;
 mod forest_against_model;
 mod forest_properties;
@@ -9,5 +8,6 @@ mod meshes;
 mod metrics;
 mod neighbours;
 mod places;
+mod model_pressure;
 mod recorded;
 mod sites;

@@ -30,11 +30,10 @@ impl Mesh {
         let face = &self.faces[at.face as usize];
         let next = (at.root as usize + 1) % face.len();
         std::array::from_fn(|axis| {
-            let coordinate =
-                |vertex: u32| i128::from(mix(mix(u64::from(vertex)) ^ axis as u64) >> 24);
+            let coordinate = |vertex: u32| i128::from(mix(mix(u64::from(vertex)) ^ axis as u64) >> 24);
             let sum: i128 = face.iter().map(|vertex| coordinate(*vertex)).sum();
-            let corners = coordinate(face[at.root as usize]) * i128::from(at.x)
-                + coordinate(face[next]) * i128::from(at.y);
+            let corners =
+                coordinate(face[at.root as usize]) * i128::from(at.x) + coordinate(face[next]) * i128::from(at.y);
             sum * (ALL_CORNER_COUNTS_DIVIDE / face.len() as i128) * i128::from(at.z())
                 + corners * ALL_CORNER_COUNTS_DIVIDE
         })
@@ -118,12 +117,10 @@ pub fn random() -> impl Strategy<Value = Mesh> {
         1 => Just(Cell::Hole),
     ];
     let size = (1..=4_usize, 1..=4_usize, any::<bool>(), any::<bool>());
-    (size, prop::collection::vec(cell, 16), any::<u64>()).prop_map(
-        |((width, height, tube, torus), cells, order)| {
-            let (tube, torus) = (tube && width >= 3, torus && height >= 3);
-            shuffled(glued(width, height, tube, torus, &cells), order)
-        },
-    )
+    (size, prop::collection::vec(cell, 16), any::<u64>()).prop_map(|((width, height, tube, torus), cells, order)| {
+        let (tube, torus) = (tube && width >= 3, torus && height >= 3);
+        shuffled(glued(width, height, tube, torus, &cells), order)
+    })
 }
 
 fn glued(width: usize, height: usize, tube: bool, torus: bool, cells: &[Cell]) -> Mesh {
@@ -134,12 +131,7 @@ fn glued(width: usize, height: usize, tube: bool, torus: bool, cells: &[Cell]) -
     for j in 0..height {
         let mut i = 0;
         while i < width {
-            let [a, b, c, d] = [
-                vertex(i, j),
-                vertex(i + 1, j),
-                vertex(i + 1, j + 1),
-                vertex(i, j + 1),
-            ];
+            let [a, b, c, d] = [vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1), vertex(i, j + 1)];
             match cells[i + 4 * j] {
                 Cell::Hexagon if i + 1 < width => {
                     faces.push(vec![a, b, vertex(i + 2, j), vertex(i + 2, j + 1), c, d]);
@@ -151,22 +143,15 @@ fn glued(width: usize, height: usize, tube: bool, torus: bool, cells: &[Cell]) -
                 Cell::Star => {
                     let middle = vertex_count as u32;
                     vertex_count += 1;
-                    faces.extend(
-                        [[a, b], [b, c], [c, d], [d, a]].map(|[from, to]| vec![from, to, middle]),
-                    );
+                    faces.extend([[a, b], [b, c], [c, d], [d, a]].map(|[from, to]| vec![from, to, middle]));
                 }
-                Cell::Hole if faces.is_empty() && i + 1 == width && j + 1 == height => {
-                    faces.push(vec![a, b, c])
-                }
+                Cell::Hole if faces.is_empty() && i + 1 == width && j + 1 == height => faces.push(vec![a, b, c]),
                 Cell::Hole => {}
             }
             i += 1;
         }
     }
-    Mesh {
-        vertex_count,
-        faces,
-    }
+    Mesh { vertex_count, faces }
 }
 
 fn shuffled(mut mesh: Mesh, order: u64) -> Mesh {

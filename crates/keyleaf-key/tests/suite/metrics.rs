@@ -53,9 +53,7 @@ impl Metric {
             return value;
         }
         let own = hash(node.key(), self.seed);
-        let of_diamond = || {
-            neighbour::h(topology, node).map_or(own, |other| own.min(hash(other.key(), self.seed)))
-        };
+        let of_diamond = || neighbour::h(topology, node).map_or(own, |other| own.min(hash(other.key(), self.seed)));
         let value = match self.kind {
             Kind::Lopsided => graded(own),
             Kind::Wild | Kind::Graded => graded(of_diamond()),
@@ -77,8 +75,7 @@ impl Metric {
     }
 
     fn nearness(self, node: Place) -> f64 {
-        let eye: [f64; 3] =
-            std::array::from_fn(|k| (mix(self.seed + 1 + k as u64) % 1601) as f64 / 1000.0 - 0.3);
+        let eye: [f64; 3] = std::array::from_fn(|k| (mix(self.seed + 1 + k as u64) % 1601) as f64 / 1000.0 - 0.3);
         let limit = [0.1, 0.2, 0.35, 0.6][(self.seed % 4) as usize];
         let [_, right, up] = node.corners().map(on_unit_cube);
         let middle = std::array::from_fn(|k| (right[k] + up[k]) / 2.0);
@@ -98,9 +95,7 @@ fn on_unit_cube(at: RootPoint) -> [f64; 3] {
         let coordinate = |corner: usize| f64::from(face[corner % 4] >> (2 - axis) & 1);
         let centre = (0..4).map(coordinate).sum::<f64>() / 4.0;
         let root = at.root as usize;
-        centre * weight(at.z())
-            + coordinate(root) * weight(at.x)
-            + coordinate(root + 1) * weight(at.y)
+        centre * weight(at.z()) + coordinate(root) * weight(at.x) + coordinate(root + 1) * weight(at.y)
     })
 }
 
@@ -119,9 +114,6 @@ pub fn any_kind() -> impl Strategy<Value = Metric> {
 }
 
 pub fn nested() -> impl Strategy<Value = Metric> {
-    (
-        prop::sample::select(vec![Kind::Random, Kind::Graded]),
-        any::<u64>(),
-    )
+    (prop::sample::select(vec![Kind::Random, Kind::Graded]), any::<u64>())
         .prop_map(|(kind, seed)| Metric::new(kind, seed))
 }

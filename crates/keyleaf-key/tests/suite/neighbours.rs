@@ -12,33 +12,16 @@ fn check(mesh: &Mesh, topology: &Topology, node: Place) {
     let (across_x, across_y, across_h) = (x(topology, node), y(topology, node), h(topology, node));
     assert_eq!(across_x.key(), by_digits::x(topology, key), "X of {node:?}");
     assert_eq!(across_y.key(), by_digits::y(topology, key), "Y of {node:?}");
-    assert_eq!(
-        across_h.map(Place::key),
-        by_digits::h(topology, key),
-        "H of {node:?}"
-    );
+    assert_eq!(across_h.map(Place::key), by_digits::h(topology, key), "H of {node:?}");
 
     let triangle = |place: Place| place.corners().map(|point| mesh.position(point));
-    let ([o, r, u], [x_o, _, x_u], [y_o, y_r, _]) =
-        (triangle(node), triangle(across_x), triangle(across_y));
-    assert_eq!(
-        (x_o, x_u),
-        (o, r),
-        "{across_x:?} lies across the leg O-R of {node:?}"
-    );
-    assert_eq!(
-        (y_o, y_r),
-        (o, u),
-        "{across_y:?} lies across the leg O-U of {node:?}"
-    );
+    let ([o, r, u], [x_o, _, x_u], [y_o, y_r, _]) = (triangle(node), triangle(across_x), triangle(across_y));
+    assert_eq!((x_o, x_u), (o, r), "{across_x:?} lies across the leg O-R of {node:?}");
+    assert_eq!((y_o, y_r), (o, u), "{across_y:?} lies across the leg O-U of {node:?}");
     assert_eq!((y(topology, across_x), x(topology, across_y)), (node, node));
     if let Some(other) = across_h {
         let [_, h_r, h_u] = triangle(other);
-        assert_eq!(
-            (h_r, h_u),
-            (u, r),
-            "{other:?} lies across the hypotenuse of {node:?}"
-        );
+        assert_eq!((h_r, h_u), (u, r), "{other:?} lies across the hypotenuse of {node:?}");
         assert_eq!(h(topology, other), Some(node));
         assert_eq!(
             mesh.position(node.middle()) == mesh.position(other.middle()),
@@ -46,24 +29,14 @@ fn check(mesh: &Mesh, topology: &Topology, node: Place) {
         );
     } else {
         let [_, r, u] = node.corners();
-        assert!(
-            r.is_on_mesh_edge()
-                && u.is_on_mesh_edge()
-                && topology.twin(node.face, node.root).is_none()
-        );
+        assert!(r.is_on_mesh_edge() && u.is_on_mesh_edge() && topology.twin(node.face, node.root).is_none());
     }
-    for neighbour in [Some(across_x), Some(across_y), across_h]
-        .into_iter()
-        .flatten()
-    {
+    for neighbour in [Some(across_x), Some(across_y), across_h].into_iter().flatten() {
         assert!(neighbour.is_valid() && neighbour.level == node.level);
     }
 
     let outer = across_outer_leg(topology, node);
-    assert_eq!(
-        outer.map(|place| place.level + 1),
-        node.parent().map(|_| node.level)
-    );
+    assert_eq!(outer.map(|place| place.level + 1), node.parent().map(|_| node.level));
     if let (Some(outer), Some(parent), Some(digit)) = (outer, node.parent(), node.digit()) {
         assert_eq!(
             if digit >= 2 {

@@ -4,7 +4,8 @@
 
 use crate::meshes;
 use crate::metrics::{Kind, Metric, hash, mix};
-use keyleaf_key::{Forest, Pressure};
+use crate::model_pressure::ModelPressure;
+use keyleaf_key::Forest;
 
 /// What the model did under one metric, after those before it.
 struct Jump {
@@ -55,13 +56,8 @@ const fn starved(kind: Kind, seed: u64, capacity: usize, jumps: &'static [Jump])
 
 fn replay(mesh: &meshes::Mesh, run: &Run) {
     let topology = mesh.topology();
-    let (mut forest, mut pressure, mut digest) =
-        (Forest::new(&topology, 4), Pressure::default(), 0);
-    let (passes, first_metric) = if run.capacity.is_some() {
-        (60, 77)
-    } else {
-        (25, 0)
-    };
+    let (mut forest, mut pressure, mut digest) = (Forest::new(&topology, 4), ModelPressure::default(), 0);
+    let (passes, first_metric) = if run.capacity.is_some() { (60, 77) } else { (25, 0) };
     for (number, jump) in (0..).zip(run.jumps) {
         let metric = Metric::new(run.kind, 1000 * run.seed + first_metric + number).on(&topology);
         let mut counts = Vec::new();
@@ -69,14 +65,14 @@ fn replay(mesh: &meshes::Mesh, run: &Run) {
             let (scale, capacity) = (pressure.scale(), run.capacity.unwrap_or(usize::MAX));
             let changes = forest.update(|node| metric(node) * scale, capacity);
             if run.capacity.is_some() {
-                pressure.observe(forest.census(changes.leaves_changed()), capacity);
+                pressure.observe(&forest, changes.leaves_changed(), capacity);
             }
             let set = forest
                 .leaves
                 .keys()
                 .map(|leaf| hash(leaf.key(), 0))
                 .fold(0, u64::wrapping_add);
-            digest = mix(digest ^ set ^ u64::from(pressure.steps()));
+            digest = mix(digest ^ set ^ u64::from(pressure.steps));
             counts.push(forest.leaves.len());
         }
         let last = counts[passes - 1];
@@ -84,7 +80,7 @@ fn replay(mesh: &meshes::Mesh, run: &Run) {
             .iter()
             .rposition(|count| *count != last)
             .map_or(1, |pass| pass + 2);
-        let found = (last_change, last, pressure.steps(), digest);
+        let found = (last_change, last, pressure.steps, digest);
         let recorded = (jump.last_change, jump.leaves, jump.steps, jump.digest);
         assert_eq!(
             found, recorded,
@@ -101,9 +97,7 @@ fn every_pass_on_the_cube_has_the_leaves_that_the_model_had() {
 
 #[test]
 fn every_pass_on_the_tetrahedron_has_the_leaves_that_the_model_had() {
-    TETRAHEDRON
-        .iter()
-        .for_each(|run| replay(&meshes::tetrahedron(), run));
+    TETRAHEDRON.iter().for_each(|run| replay(&meshes::tetrahedron(), run));
 }
 
 use Kind::{Distance, Graded, Random};

@@ -8,15 +8,7 @@ use std::collections::HashMap;
 /// All points of all roots whose coordinates are multiples of ONE / 8, or that and one unit less or more along a border.
 fn lattice(topology: &Topology) -> impl Iterator<Item = RootPoint> {
     const STEP: u32 = ONE / 8;
-    let values = || {
-        (0..=8).flat_map(|i| {
-            [
-                (i * STEP).saturating_sub(1),
-                i * STEP,
-                (i * STEP + 1).min(ONE),
-            ]
-        })
-    };
+    let values = || (0..=8).flat_map(|i| [(i * STEP).saturating_sub(1), i * STEP, (i * STEP + 1).min(ONE)]);
     let pairs: Vec<(u32, u32)> = values()
         .flat_map(|x| values().map(move |y| (x, y)))
         .filter(|(x, y)| *y <= ONE - x)
@@ -51,9 +43,7 @@ fn equal_sites_iff_equal_positions(mesh: &meshes::Mesh) {
 
 #[test]
 fn sites_are_equal_iff_points_are_on_meshes_made_by_hand() {
-    meshes::by_hand()
-        .iter()
-        .for_each(equal_sites_iff_equal_positions);
+    meshes::by_hand().iter().for_each(equal_sites_iff_equal_positions);
 }
 
 proptest! {

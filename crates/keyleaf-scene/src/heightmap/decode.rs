@@ -33,6 +33,8 @@ pub(super) struct Raster {
     pub height: usize,
     pub samples: Vec<f32>,
     pub kind: SampleKind,
+    /// The sample that means 1 in a picture of displacements.
+    pub full_scale: f64,
     /// The void value that the file itself states.
     pub no_data: Option<f32>,
 }
@@ -93,7 +95,8 @@ fn decode_png(file: &Path, bytes: &[u8], notes: &mut Vec<Note>) -> Result<Raster
         let text = "8 bits a sample make terraces; use 16 bits or floats";
         notes.push(Note::note(file, text));
     }
-    Ok(Raster { width, height, samples, kind, no_data: None })
+    let full_scale = if kind == SampleKind::Byte { 255.0 } else { 65_535.0 };
+    Ok(Raster { width, height, samples, kind, full_scale, no_data: None })
 }
 
 /// Raw 16-bit samples, little-endian, unsigned, row by row.
@@ -123,7 +126,8 @@ fn decode_raw(
     }
     let sample = |b: &[u8]| f32::from(u16::from_le_bytes([b[0], b[1]]));
     let samples = bytes.chunks_exact(2).map(sample).collect();
-    Ok(Raster { width, height, samples, kind: SampleKind::Unsigned, no_data: None })
+    let kind = SampleKind::Unsigned;
+    Ok(Raster { width, height, samples, kind, full_scale: 65_535.0, no_data: None })
 }
 
 fn decode_tiff(file: &Path, bytes: &[u8], notes: &mut Vec<Note>) -> Result<Raster, ImportError> {
@@ -146,7 +150,17 @@ fn decode_tiff(file: &Path, bytes: &[u8], notes: &mut Vec<Note>) -> Result<Raste
         .ok()
         .and_then(|text| text.trim_matches(['\0', ' ', '\n']).parse::<f64>().ok())
         .map(|value| value as f32);
-    let (kind, samples) = match decoder.read_image().map_err(malformed)? {
+    let image = decoder.read_image().map_err(malformed)?;
+    let full_scale = match &image {
+        DecodingResult::U8(_) => u8::MAX.into(),
+        DecodingResult::I8(_) => i8::MAX.into(),
+        DecodingResult::U16(_) => u16::MAX.into(),
+        DecodingResult::I16(_) => i16::MAX.into(),
+        DecodingResult::U32(_) => u32::MAX.into(),
+        DecodingResult::I32(_) => i32::MAX.into(),
+        _ => 1.0,
+    };
+    let (kind, samples) = match image {
         DecodingResult::U8(v) => (SampleKind::Byte, v.into_iter().map(f32::from).collect()),
         DecodingResult::I8(v) => (SampleKind::Signed, v.into_iter().map(f32::from).collect()),
         DecodingResult::U16(v) => (SampleKind::Unsigned, v.into_iter().map(f32::from).collect()),
@@ -159,7 +173,8 @@ fn decode_tiff(file: &Path, bytes: &[u8], notes: &mut Vec<Note>) -> Result<Raste
         DecodingResult::U64(v) => (SampleKind::Unsigned, rounded(v, |x| x as f32, file, notes)),
         DecodingResult::I64(v) => (SampleKind::Signed, rounded(v, |x| x as f32, file, notes)),
     };
-    Ok(Raster { width: width as usize, height: height as usize, samples, kind, no_data })
+    let (width, height) = (width as usize, height as usize);
+    Ok(Raster { width, height, samples, kind, full_scale, no_data })
 }
 
 /// Samples of more than 24 bits as f32, with a note.
@@ -217,5 +232,6 @@ fn decode_exr(file: &Path, bytes: &[u8], notes: &mut Vec<Note>) -> Result<Raster
         FlatSamples::U32(values) => rounded(values.clone(), |x| x as f32, file, notes),
     };
     let (width, height) = (layer.size.width(), layer.size.height());
-    Ok(Raster { width, height, samples, kind: SampleKind::Float, no_data: None })
+    let kind = SampleKind::Float;
+    Ok(Raster { width, height, samples, kind, full_scale: 1.0, no_data: None })
 }

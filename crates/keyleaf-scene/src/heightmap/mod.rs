@@ -14,17 +14,15 @@ mod voids;
 use std::path::Path;
 
 use glam::DVec2;
+use keyleaf_surface::{HeightMap, HeightMapError};
 
-use crate::error::{ImportError, extension};
+use crate::error::{FilePlace, ImportError, extension};
 use crate::note::Note;
 
 pub use sidecar::Sidecar;
 
 /// The file types of height maps, as an error lists them.
 pub const HEIGHT_MAP_EXTENSIONS: &str = ".png, .tif, .tiff, .exr, .r16, .raw";
-
-/// The largest side that default limits of a GPU allow, in samples; a larger map gets a warning.
-pub const USUAL_MAX_SIDE: usize = 8192;
 
 /// What a height map file cannot tell itself.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -35,15 +33,13 @@ pub struct HeightMapOptions {
     pub void_value: Option<f32>,
 }
 
-/// A height map, read, its voids filled.
+/// A height map file, read, its voids filled.
 #[derive(Debug, Clone)]
-pub struct HeightMap {
-    /// Samples a row (west to east), at least 2.
-    pub width: usize,
-    /// Rows (north to south), at least 2.
-    pub height: usize,
-    /// Sample values, row by row, row 0 at the top of the picture (north). Finite.
-    pub samples: Vec<f32>,
+pub struct HeightMapFile {
+    /// The samples, row 0 at the top of the picture (north).
+    pub map: HeightMap,
+    /// Smallest and largest sample.
+    pub range: (f32, f32),
     /// How many samples were voids and are filled.
     pub voids: usize,
     /// Distance of samples in metres, east and north, if the file's sidecar tells.
@@ -52,24 +48,28 @@ pub struct HeightMap {
     pub notes: Vec<Note>,
 }
 
-impl HeightMap {
-    /// Smallest and largest sample.
-    pub fn range(&self) -> (f32, f32) {
-        self.samples
-            .iter()
-            .fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), &s| (low.min(s), high.max(s)))
-    }
-
+impl HeightMapFile {
     /// The spacing that the file tells, else one for which the relief is a sixth of the larger side (1 for a flat
     /// map); `scale` is the height of one unit of the samples in metres.
     pub fn spacing_or_default(&self, scale: f64) -> DVec2 {
         self.spacing.unwrap_or_else(|| {
-            let (low, high) = self.range();
-            let relief = f64::from(high - low) * scale.abs();
-            let steps = self.width.max(self.height) - 1;
-            DVec2::splat(if relief > 0.0 { RELIEF_TO_SIDE * relief / steps as f64 } else { 1.0 })
+            let (low, high) = self.range;
+            let relief = (f64::from(high) - f64::from(low)) * scale.abs();
+            let steps = f64::from(self.map.width().max(self.map.height()) - 1);
+            DVec2::splat(if relief > 0.0 { RELIEF_TO_SIDE * relief / steps } else { 1.0 })
         })
     }
+}
+
+/// A picture of displacements, read.
+#[derive(Debug, Clone)]
+pub struct DisplacementFile {
+    /// The samples as the file has them.
+    pub map: HeightMap,
+    /// The sample that means 1: 255, 65535, or 1 for floats.
+    pub full_scale: f64,
+    /// What was found.
+    pub notes: Vec<Note>,
 }
 
 /// How many times its relief the larger side of a map of unknown spacing is.
@@ -85,32 +85,52 @@ pub fn is_height_map(file: &Path) -> bool {
 /// # Errors
 /// [`ImportError`] names the file and the reason: unreadable, truncated, an unknown type, smaller than 2×2, no sample
 /// that is not a void, a sidecar that does not fit.
-pub fn read_height_map(file: &Path, options: &HeightMapOptions) -> Result<HeightMap, ImportError> {
+pub fn read_height_map(
+    file: &Path,
+    options: &HeightMapOptions,
+) -> Result<HeightMapFile, ImportError> {
     let mut notes = Vec::new();
     let mut raster = decode::decode(file, options, &mut notes)?;
-    let (width, height) = (raster.width, raster.height);
-    if width < 2 || height < 2 {
-        let reason = format!("a height map needs at least 2x2 samples, this one has {width}x{height}");
-        return Err(ImportError::empty(file, reason));
-    }
-    if width.max(height) > USUAL_MAX_SIDE {
-        let text = format!(
-            "{width}x{height} samples: many devices take at most {USUAL_MAX_SIDE} a side; scale or cut the map"
-        );
-        notes.push(Note::warning(file, text));
-    }
     let sidecar = sidecar::Sidecar::read_beside(file)?;
     let listed = sidecar.as_ref().and_then(|s| s.voids.as_deref());
     let mask = voids::find(file, &raster, options.void_value, listed, &mut notes)?;
-    let count = mask.iter().filter(|&&v| v).count();
-    if count == mask.len() {
+    let voids = mask.iter().filter(|&&v| v).count();
+    if voids == mask.len() {
         return Err(ImportError::empty(file, "all samples of the height map are voids"));
     }
-    if count > 0 {
-        fill::fill(&mut raster.samples, &mask, width);
-        let percent = 100.0 * count as f64 / mask.len() as f64;
-        notes.push(Note::note(file, format!("{count} voids ({percent:.2} %) are filled")));
+    if voids > 0 {
+        fill::fill(&mut raster.samples, &mask, raster.width);
+        let percent = 100.0 * voids as f64 / mask.len() as f64;
+        notes.push(Note::note(file, format!("{voids} voids ({percent:.2} %) are filled")));
     }
+    let range = raster
+        .samples
+        .iter()
+        .fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), &s| (low.min(s), high.max(s)));
     let spacing = sidecar.and_then(|s| s.spacing(file, &mut notes));
-    Ok(HeightMap { width, height, samples: raster.samples, voids: count, spacing, notes })
+    let map = height_map(file, raster)?;
+    Ok(HeightMapFile { map, range, voids, spacing, notes })
+}
+
+/// Reads a picture of displacements: like a height map, but no sample is taken for a void.
+///
+/// # Errors
+/// [`ImportError`] as for [`read_height_map`]; samples that are not finite are refused.
+pub fn read_displacement(file: &Path) -> Result<DisplacementFile, ImportError> {
+    let mut notes = Vec::new();
+    let raster = decode::decode(file, &HeightMapOptions::default(), &mut notes)?;
+    let full_scale = raster.full_scale;
+    Ok(DisplacementFile { map: height_map(file, raster)?, full_scale, notes })
+}
+
+fn height_map(file: &Path, raster: decode::Raster) -> Result<HeightMap, ImportError> {
+    HeightMap::new(raster.width as u32, raster.height as u32, raster.samples).map_err(|error| {
+        let place = match error {
+            HeightMapError::Sample { column, row, .. } => {
+                FilePlace::Sample { row: row as usize, column: column as usize }
+            }
+            _ => FilePlace::Whole,
+        };
+        ImportError::malformed(file, place, error.to_string())
+    })
 }

@@ -79,7 +79,7 @@ pub(super) fn glb() -> Vec<u8> {
 }
 
 fn parse(name: &str, bytes: impl AsRef<[u8]>) -> Result<Model, String> {
-    decode(Path::new(name), bytes.as_ref()).map_err(|e| e.to_string())
+    decode(Path::new(name), bytes.as_ref(), &ModelOptions::default()).map_err(|e| e.to_string())
 }
 
 #[test]

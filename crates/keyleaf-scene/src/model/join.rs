@@ -8,7 +8,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::material::SurfaceMaterial;
-use crate::mesh::PolygonMesh;
+use keyleaf_surface::PolygonMesh;
 use crate::note::Note;
 use crate::texture::{ColourTexture, MAX_TEXTURE_SIDE};
 
@@ -38,6 +38,7 @@ pub(super) fn join(
     mesh: &mut PolygonMesh,
     of_face: &[u32],
     materials: &[SurfaceMaterial],
+    keep_uvs: bool,
     notes: &mut Vec<Note>,
 ) -> SurfaceMaterial {
     let material = |face: usize| {
@@ -62,6 +63,11 @@ pub(super) fn join(
         return SurfaceMaterial { texture: first.texture, ..white };
     }
     let Some(uvs) = &mut mesh.corners.uvs else { return white };
+    if keep_uvs {
+        let text = "the model has several pictures, which are not drawn";
+        notes.push(Note::warning(file, text));
+        return white;
+    }
     match pack(uvs, &ranges, &faces) {
         Some((picture, stretched)) => {
             if stretched > 0 {
@@ -197,7 +203,7 @@ fn draw(tiles: &[Tile], width: u32, height: u32) -> ColourTexture {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::CornerAttributes;
+    use keyleaf_surface::CornerAttributes;
 
     fn picture(width: u32, height: u32, colour: u8) -> Arc<ColourTexture> {
         let texel = |i: u32| [colour, i as u8, 0, 255];
@@ -231,7 +237,7 @@ mod tests {
             corners: CornerAttributes { uvs: Some(uvs.clone()), normals: None, colours: None },
         };
         let mut notes = Vec::new();
-        let joint = join(Path::new("m"), &mut mesh, &[0, 1, 2], &materials, &mut notes);
+        let joint = join(Path::new("m"), &mut mesh, &[0, 1, 2], &materials, false, &mut notes);
         let texture = joint.texture.unwrap();
         let joined = mesh.corners.uvs.unwrap();
         for (i, uv) in uvs.iter().enumerate().take(6) {

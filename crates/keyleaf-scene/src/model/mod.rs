@@ -18,7 +18,7 @@ mod tests;
 
 use std::path::Path;
 
-use crate::mesh::PolygonMesh;
+use keyleaf_surface::PolygonMesh;
 
 use crate::error::{ImportError, extension, read_file};
 use crate::material::SurfaceMaterial;
@@ -39,6 +39,13 @@ pub struct Model {
     pub notes: Vec<Note>,
 }
 
+/// How a model is read.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct ModelOptions {
+    /// Texture coordinates stay as the file has them: of a model with several pictures none is drawn.
+    pub keep_uvs: bool,
+}
+
 /// Whether a file name ends in one of [`MODEL_EXTENSIONS`].
 pub fn is_model(file: &Path) -> bool {
     matches!(extension(file).as_str(), "obj" | "gltf" | "glb" | "ply" | "stl")
@@ -50,10 +57,11 @@ pub fn is_model(file: &Path) -> bool {
 /// [`ImportError`] names the file, the place and the reason. Nothing panics, whatever the bytes are.
 ///
 /// ```
-/// let error = keyleaf_scene::read_model("no/such/cow.obj".as_ref()).unwrap_err();
+/// use keyleaf_scene::{ModelOptions, read_model};
+/// let error = read_model("no/such/cow.obj".as_ref(), &ModelOptions::default()).unwrap_err();
 /// assert!(error.to_string().starts_with("no/such/cow.obj: cannot be read"));
 /// ```
-pub fn read_model(file: &Path) -> Result<Model, ImportError> {
+pub fn read_model(file: &Path, options: &ModelOptions) -> Result<Model, ImportError> {
     if !is_model(file) {
         return Err(ImportError::UnknownExtension {
             file: file.to_path_buf(),
@@ -61,11 +69,11 @@ pub fn read_model(file: &Path) -> Result<Model, ImportError> {
             expected: MODEL_EXTENSIONS,
         });
     }
-    decode(file, &read_file(file)?)
+    decode(file, &read_file(file)?, options)
 }
 
 /// Reads a model from the bytes of `file`; what it refers to is looked for beside `file`.
-fn decode(file: &Path, bytes: &[u8]) -> Result<Model, ImportError> {
+fn decode(file: &Path, bytes: &[u8], options: &ModelOptions) -> Result<Model, ImportError> {
     let mut notes = Vec::new();
     let plain = vec![SurfaceMaterial::default()];
     let (soup, materials) = match extension(file).as_str() {
@@ -82,6 +90,7 @@ fn decode(file: &Path, bytes: &[u8]) -> Result<Model, ImportError> {
     };
     let welded = weld(file, &soup, &mut notes)?;
     let mut mesh = welded.mesh;
-    let material = join::join(file, &mut mesh, &welded.materials, &materials, &mut notes);
+    let material =
+        join::join(file, &mut mesh, &welded.materials, &materials, options.keep_uvs, &mut notes);
     Ok(Model { mesh, material, notes })
 }

@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3};
 use std::path::PathBuf;
 
 fn parse(name: &str, bytes: impl AsRef<[u8]>) -> Result<Model, String> {
-    decode(Path::new(name), bytes.as_ref()).map_err(|e| e.to_string())
+    decode(Path::new(name), bytes.as_ref(), &ModelOptions::default()).map_err(|e| e.to_string())
 }
 
 fn error(name: &str, bytes: impl AsRef<[u8]>) -> String {
@@ -129,7 +129,7 @@ fn ply(format: &str, body: &[u8]) -> Vec<u8> {
 
 fn binary_ply(big: bool) -> Vec<u8> {
     let mut body = Vec::new();
-    let mut word = |bytes: [u8; 4]| {
+    let word = |bytes: [u8; 4]| {
         let mut bytes = bytes.to_vec();
         if big {
             bytes.reverse();
@@ -226,7 +226,7 @@ fn real_models_agree_with_another_reader() {
             .iter()
             .flat_map(|m| m.mesh.indices.iter().map(|&i| Vec3::from_slice(&m.mesh.positions[3 * i as usize..])))
             .sum();
-        match read_model(&file) {
+        match read_model(&file, &ModelOptions::default()) {
             Ok(model) if !said(&model, "not convex") => {
                 let own: DVec3 = model.mesh.faces.iter().flatten().map(|&v| model.mesh.positions[v as usize]).sum();
                 assert_eq!(model.mesh.faces.corner_count(), corners, "{}", file.display());

@@ -47,6 +47,20 @@ pub enum SceneError {
         /// What is wrong, and what was expected.
         problem: String,
     },
+    /// A file that the scene refers to was refused, or cannot be made the surface that the scene asks for.
+    #[error("{}:{} {}{source}", file.display(), locate::position(line, column), locate::prefix(field))]
+    Reference {
+        /// The scene file.
+        file: PathBuf,
+        /// Line, from 1, if the field stands in the file.
+        line: Option<usize>,
+        /// Column in characters, from 1.
+        column: Option<usize>,
+        /// The field, such as `surfaces[0].source`.
+        field: String,
+        /// Why.
+        source: Box<dyn std::error::Error + Send + Sync>,
+    },
     /// The scene cannot be written as RON.
     #[error("the scene cannot be written: {reason}")]
     Write {
@@ -67,26 +81,35 @@ impl Problem {
         Self { field: field.into(), problem: problem.into() }
     }
 
-    /// Looks for the field in the text of the scene, or, where it is left out, for what it would stand in.
+    /// As an error, with the place of the field in the text of the scene.
     pub fn at(self, file: &Path, text: &str) -> SceneError {
-        let fields = locate::fields(text);
-        let mut wanted = self.field.as_str();
-        let found = loop {
-            if let Some(found) = fields.iter().find(|f| f.path == wanted) {
-                break Some(found);
-            }
-            match wanted.rfind(['.', '[']) {
-                Some(end) => wanted = &wanted[..end],
-                None => break None,
-            }
-        };
-        SceneError::Invalid {
-            file: file.to_path_buf(),
-            line: found.map(|f| f.start.0),
-            column: found.map(|f| f.start.1),
-            field: self.field,
-            problem: self.problem,
+        let (line, column) = place_of(&self.field, text).unzip();
+        let Self { field, problem } = self;
+        SceneError::Invalid { file: file.to_path_buf(), line, column, field, problem }
+    }
+}
+
+/// What is wrong with a file that a field refers to.
+pub(crate) fn reference(
+    file: &Path,
+    text: &str,
+    field: String,
+    source: impl Into<Box<dyn std::error::Error + Send + Sync>>,
+) -> SceneError {
+    let (line, column) = place_of(&field, text).unzip();
+    let source = source.into();
+    SceneError::Reference { file: file.to_path_buf(), line, column, field, source }
+}
+
+/// Where a field stands in the text of a scene, or, where it is left out, what it would stand in.
+fn place_of(field: &str, text: &str) -> Option<(usize, usize)> {
+    let fields = locate::fields(text);
+    let mut wanted = field;
+    loop {
+        if let Some(found) = fields.iter().find(|f| f.path == wanted) {
+            return Some(found.start);
         }
+        wanted = &wanted[..wanted.rfind(['.', '['])?];
     }
 }
 
@@ -108,8 +131,9 @@ pub(super) fn syntax(file: &Path, text: &str, error: &ron::error::SpannedError) 
             (start, path, format!("unknown choice `{found}`, expected one of {}", listed(expected)))
         }
         Error::MissingStructField { field, .. } => {
-            // The error is found at the end of the struct that lacks it.
-            let inside = fields.iter().rfind(|f| f.end <= end && f.is_struct);
+            // The error is found before the closing bracket of the struct that lacks it.
+            let around = |f: &&Field| f.is_struct && f.start <= end && end < f.end;
+            let inside = fields.iter().filter(around).max_by_key(|f| f.start);
             let path = inside.map_or(String::new(), |f| f.path.clone());
             let at = inside.map_or(start, |f| f.start);
             (at, path, format!("missing field `{field}`"))

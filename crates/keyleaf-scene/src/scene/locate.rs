@@ -214,7 +214,8 @@ impl Walker {
         for index in 0.. {
             self.skip_space();
             match self.peek() {
-                None => return,
+                // The wrong bracket ends the list too, for what is around it.
+                None | Some(')') => return,
                 Some(']') => {
                     self.next();
                     return;
@@ -237,7 +238,7 @@ impl Walker {
             self.skip_space();
             let key = self.position;
             match self.peek() {
-                None => return named,
+                None | Some(']') => return named,
                 Some(')') => {
                     self.next();
                     return named || first;

@@ -9,7 +9,7 @@
 //!     surfaces: [
 //!         Surface(
 //!             name: "hills",
-//!             source: Terrain(amplitude: 900.0, octaves: 14),
+//!             source: Terrain(height: 900.0, octaves: 14),
 //!             material: (colouring: Terrain()),
 //!         ),
 //!     ],
@@ -46,14 +46,15 @@ use std::path::Path;
 use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
 
-pub use camera::{CameraPath, Ease, NamedCamera, PathKey};
+pub use camera::{CameraPath, DEFAULT_FOV, Ease, NamedCamera, PathKey};
 pub use error::SceneError;
+pub(crate) use error::{Problem, reference};
 pub use light::{Effect, Fog, Light};
 pub use settings::{Culling, GuardBand, Metric, Settings, SettingsOverrides};
 pub use surface::{
     Colouring, DisplacedSource, DisplacementHeight, HeightFieldSource, Interpolation, Material,
-    NoiseHeight, Shape, Source, SurfaceEntry, TerrainColours, TerrainKind, TerrainSource,
-    TextureHeight, Transform,
+    NoiseHeight, Shape, Source, SurfaceEntry, TerrainColours, TerrainSource, TextureHeight,
+    Transform,
 };
 
 /// A scene file.

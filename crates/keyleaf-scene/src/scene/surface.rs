@@ -1,6 +1,7 @@
 //! The surfaces of a scene: where they come from, how they are shaped, placed and coloured.
 
 use glam::{DMat4, DQuat, DVec3, EulerRot};
+use keyleaf_surface::TerrainSettings;
 use serde::{Deserialize, Serialize};
 
 use super::settings::SettingsOverrides;
@@ -66,6 +67,21 @@ pub struct HeightFieldSource {
     pub raw_size: Option<[u32; 2]>,
 }
 
+impl HeightFieldSource {
+    /// A map with defaults for all but its path.
+    pub fn new(path: impl Into<String>) -> Self {
+        Self {
+            path: path.into(),
+            spacing: None,
+            scale: 1.0,
+            offset: 0.0,
+            interpolation: Interpolation::default(),
+            void_value: None,
+            raw_size: None,
+        }
+    }
+}
+
 /// How heights run between samples; all go through the samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Interpolation {
@@ -80,43 +96,39 @@ pub enum Interpolation {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct TerrainSource {
-    /// What it looks like. Default `Ridged`.
-    pub kind: TerrainKind,
     /// Side of the square in metres, above 0; default 10⁷.
     pub extent: f64,
-    /// Height of the largest features in metres, at least 0; default 2000.
-    pub amplitude: f64,
-    /// Size of the largest features in metres, above 0 and at most `extent`; default 40000.
-    pub wavelength: f64,
-    /// Number of octaves, each with half the wavelength of the one before; 1..=24, default 16.
+    /// All heights lie within ± this many metres, most within a third of it; above 0, default 6000.
+    pub height: f64,
+    /// The first octave has 2 to the power of this cells along a side; 1..=28, default 7 (78 km).
+    pub first_level: u32,
+    /// Number of octaves, each with half the cells' length of the one before; at least 1, with `first_level` at most
+    /// 29; default 17.
     pub octaves: u32,
-    /// Height of an octave relative to the one before; above 0 and below 1, default 0.5.
+    /// Amplitude of an octave over that of the one before; 0..=1, default 0.5.
     pub gain: f64,
+    /// 0: rolling hills; 1: sharp ridges. Default 0.7.
+    pub ridged: f64,
+    /// 0: as rough everywhere; 1: smooth valleys, rough heights. Default 0.8.
+    pub contrast: f64,
     /// Any number; another one is another terrain. Default 1.
     pub seed: u32,
 }
 
 impl Default for TerrainSource {
     fn default() -> Self {
-        Self {
-            kind: TerrainKind::Ridged,
-            extent: 1e7,
-            amplitude: 2000.0,
-            wavelength: 40_000.0,
-            octaves: 16,
-            gain: 0.5,
-            seed: 1,
-        }
+        let TerrainSettings { extent, height, first_level, octaves, gain, ridged, contrast, seed } =
+            TerrainSettings::default();
+        Self { extent, height, first_level, octaves, gain, ridged, contrast, seed }
     }
 }
 
-/// What procedural terrain looks like.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub enum TerrainKind {
-    /// Rolling: a sum of gradient noise.
-    Fbm,
-    /// Sharp crests: folded noise.
-    Ridged,
+impl From<&TerrainSource> for TerrainSettings {
+    fn from(source: &TerrainSource) -> Self {
+        let &TerrainSource { extent, height, first_level, octaves, gain, ridged, contrast, seed } =
+            source;
+        Self { extent, height, first_level, octaves, gain, ridged, contrast, seed }
+    }
 }
 
 /// How a mesh is shaped.
@@ -157,6 +169,9 @@ pub struct TextureHeight {
     /// The sample that moves nothing; default 0.
     #[serde(default)]
     pub middle: f64,
+    /// Whether the picture repeats outside the unit square of texture coordinates; else its rim goes on. Default true.
+    #[serde(default = "yes")]
+    pub repeats: bool,
 }
 
 /// Displacement by noise.
@@ -170,7 +185,7 @@ pub struct NoiseHeight {
     /// Number of octaves, each with half the wavelength of the one before; 1..=16, default 5.
     #[serde(default = "five")]
     pub octaves: u32,
-    /// Height of an octave relative to the one before; above 0 and below 1, default 0.5.
+    /// Amplitude of an octave over that of the one before; 0..=1, default 0.5.
     #[serde(default = "half")]
     pub gain: f64,
     /// Any number; another one is another noise. Default 1.
@@ -213,13 +228,12 @@ impl Transform {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Material {
-    /// Multiplies what the model and the picture give; default (0.8, 0.8, 0.8) for a source without material, white
-    /// for a model with one.
+    /// Multiplies the other colours; default `None`: white, or (0.8, 0.8, 0.8) where there are no other colours.
     pub base_colour: Option<[f32; 3]>,
     /// A picture in place of the model's own, relative to the scene's folder. Needs texture coordinates; a height
     /// field and a terrain have (0..1) over the whole.
     pub texture: Option<String>,
-    /// Whether colours at the corners of the model are used. Default true.
+    /// Whether colours at the corners of the model are used, also those of several materials. Default true.
     pub vertex_colours: bool,
     /// What is added by shape. Default `Plain`.
     pub colouring: Colouring,
@@ -278,6 +292,10 @@ impl Default for TerrainColours {
             slopes: [25.0, 42.0],
         }
     }
+}
+
+fn yes() -> bool {
+    true
 }
 
 fn one() -> f64 {

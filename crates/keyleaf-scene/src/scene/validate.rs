@@ -198,14 +198,13 @@ fn check_surface(field: &str, surface: &SurfaceEntry, settings: &Settings) -> Ch
 
 fn check_terrain(field: &str, terrain: &TerrainSource) -> Checked {
     positive(&format!("{field}.extent"), terrain.extent)?;
-    within(&format!("{field}.amplitude"), terrain.amplitude, 0.0, MAX_COORDINATE)?;
-    positive(&format!("{field}.wavelength"), terrain.wavelength)?;
-    if terrain.wavelength > terrain.extent {
-        let problem = format!("{} is more than extent, {}", terrain.wavelength, terrain.extent);
-        return Err(Problem::new(format!("{field}.wavelength"), problem));
-    }
-    within(&format!("{field}.octaves"), terrain.octaves.into(), 1.0, 24.0)?;
-    between(&format!("{field}.gain"), terrain.gain, 0.0, 1.0)
+    positive(&format!("{field}.height"), terrain.height)?;
+    within(&format!("{field}.first_level"), terrain.first_level.into(), 1.0, 28.0)?;
+    let most = 29 - terrain.first_level;
+    within(&format!("{field}.octaves"), terrain.octaves.into(), 1.0, most.into())?;
+    within(&format!("{field}.gain"), terrain.gain, 0.0, 1.0)?;
+    within(&format!("{field}.ridged"), terrain.ridged, 0.0, 1.0)?;
+    within(&format!("{field}.contrast"), terrain.contrast, 0.0, 1.0)
 }
 
 fn check_shape(field: &str, surface: &SurfaceEntry) -> Checked {
@@ -225,7 +224,7 @@ fn check_shape(field: &str, surface: &SurfaceEntry) -> Checked {
             not_zero(&format!("{height}.amplitude"), noise.amplitude)?;
             positive(&format!("{height}.wavelength"), noise.wavelength)?;
             within(&format!("{height}.octaves"), noise.octaves.into(), 1.0, 16.0)?;
-            between(&format!("{height}.gain"), noise.gain, 0.0, 1.0)
+            within(&format!("{height}.gain"), noise.gain, 0.0, 1.0)
         }
     }
 }

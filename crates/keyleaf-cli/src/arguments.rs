@@ -1,0 +1,200 @@
+//! What several commands take, and how it is read.
+
+use anyhow::{Context, bail, ensure};
+use clap::Args;
+use glam::{DVec3, UVec2};
+use keyleaf::{Metric, Settings, View};
+use keyleaf_stage::{LoadOptions, Loaded, load, view_of};
+use std::path::{Path, PathBuf};
+
+/// What is opened.
+#[derive(Args, Clone)]
+pub struct SceneArguments {
+    /// Scene file, model or height map
+    #[arg(value_name = "SCENE")]
+    pub scene: PathBuf,
+    #[command(flatten)]
+    pub reading: ReadingArguments,
+    #[command(flatten)]
+    pub overrides: Overrides,
+}
+
+/// How a file is read that cannot tell itself.
+#[derive(Args, Clone)]
+pub struct ReadingArguments {
+    /// Samples of a raw height map (.r16) that is opened directly; default: a square one
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub raw_size: Option<UVec2>,
+}
+
+/// What replaces the settings of the scene, for all its surfaces.
+#[derive(Args, Clone)]
+pub struct Overrides {
+    /// Length of a drawn edge in pixels that leaves are split for; short for --metric edge=P
+    #[arg(long, value_name = "P", conflicts_with = "metric")]
+    pub pixels: Option<f32>,
+    /// When leaves split: edge=PIXELS, or distance=FACTOR (Khoury 2.1)
+    #[arg(long, value_name = "METRIC", value_parser = parse_metric)]
+    pub metric: Option<Metric>,
+    /// Leaves that the buffers of a surface hold
+    #[arg(long, value_name = "N")]
+    pub capacity: Option<u32>,
+    /// k: every leaf is drawn as 4^k triangles, 0..=6
+    #[arg(long, value_name = "K")]
+    pub base_grid: Option<u32>,
+    /// The deepest level, 0..=31 - k
+    #[arg(long, value_name = "L")]
+    pub max_level: Option<u32>,
+}
+
+/// Where the camera stands.
+#[derive(Args, Clone)]
+#[group(skip)]
+pub struct ViewArguments {
+    /// A camera of the scene by its name; default: the first one
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["eye", "look_at", "fov"])]
+    pub camera: Option<String>,
+    /// Position of the camera in metres
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse_point, allow_hyphen_values = true, requires = "look_at")]
+    pub eye: Option<DVec3>,
+    /// The point in the middle of the picture
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse_point, allow_hyphen_values = true, requires = "eye")]
+    pub look_at: Option<DVec3>,
+    /// Vertical angle of view in degrees [default: 50]
+    #[arg(long, value_name = "DEGREES", requires = "eye", value_parser = parse_fov)]
+    pub fov: Option<f64>,
+    /// Size of the picture in pixels
+    #[arg(long, value_name = "WxH", value_parser = parse_size, default_value = "1280x720")]
+    pub size: UVec2,
+}
+
+impl SceneArguments {
+    /// Opens the scene with what was asked for.
+    pub fn load(&self, quiet: bool) -> anyhow::Result<Loaded> {
+        load_scene(&self.scene, &self.reading, &self.overrides, quiet)
+    }
+}
+
+/// Opens a scene; its notes go to stderr.
+pub fn load_scene(scene: &Path, reading: &ReadingArguments, overrides: &Overrides, quiet: bool) -> anyhow::Result<Loaded> {
+    let options = LoadOptions { raw_size: reading.raw_size.map(|size| size.to_array()) };
+    let mut loaded = load(scene, &options)?;
+    if !quiet {
+        loaded.notes.iter().for_each(|note| eprintln!("note: {note}"));
+    }
+    for object in &mut loaded.objects {
+        overrides.apply(&mut object.settings);
+        object.settings.validate().with_context(|| format!("surface {}", object.name))?;
+    }
+    Ok(loaded)
+}
+
+impl Overrides {
+    fn apply(&self, settings: &mut Settings) {
+        settings.metric = self.pixels.map(|pixels| Metric::Edge { pixels }).or(self.metric).unwrap_or(settings.metric);
+        settings.capacity = self.capacity.unwrap_or(settings.capacity);
+        settings.target_leaves = settings.target_leaves.min(settings.capacity);
+        if let Some(k) = self.base_grid {
+            settings.base_grid = k;
+            settings.max_level = settings.max_level.min(keyleaf::key::MAX_LEVEL.saturating_sub(k));
+        }
+        settings.max_level = self.max_level.unwrap_or(settings.max_level);
+    }
+}
+
+impl ViewArguments {
+    /// What the camera is called, and what it sees.
+    pub fn view(&self, loaded: &Loaded) -> anyhow::Result<(String, View)> {
+        let (Some(eye), Some(look_at)) = (self.eye, self.look_at) else {
+            let camera = loaded.camera(self.camera.as_deref())?;
+            return Ok((camera.name.clone(), loaded.view(Some(&camera.name), self.size)?));
+        };
+        ensure!(eye != look_at, "--look-at is the same point as --eye: a camera needs a direction");
+        let fov = self.fov.unwrap_or(50.0);
+        let view = keyleaf_scene::View::new(eye, look_at, fov, None);
+        Ok((format!("eye {eye}, look at {look_at}, fov {fov}"), view_of(&view, self.size)))
+    }
+}
+
+/// `WxH`, both at least 1.
+pub fn parse_size(text: &str) -> anyhow::Result<UVec2> {
+    let side = |text: &str| text.trim().parse::<u32>().ok();
+    let (width, height) = text.split_once(['x', 'X']).context("expected WIDTHxHEIGHT, such as 1280x720")?;
+    match (side(width), side(height)) {
+        (Some(0), Some(_)) | (Some(_), Some(0)) => bail!("expected at least 1x1"),
+        (Some(width), Some(height)) => Ok(UVec2::new(width, height)),
+        _ => bail!("expected WIDTHxHEIGHT in whole numbers, such as 1280x720"),
+    }
+}
+
+fn parse_point(text: &str) -> anyhow::Result<DVec3> {
+    let numbers: Vec<f64> = text.split(',').filter_map(|n| n.trim().parse().ok()).collect();
+    let most = keyleaf_scene::MAX_COORDINATE;
+    match numbers[..] {
+        [x, y, z] if text.matches(',').count() == 2 && [x, y, z].iter().all(|c| c.abs() <= most) => Ok(DVec3::new(x, y, z)),
+        _ => bail!("expected three finite numbers X,Y,Z, each at most {most:e}"),
+    }
+}
+
+fn parse_fov(text: &str) -> anyhow::Result<f64> {
+    let fov: f64 = text.parse().context("expected a number of degrees")?;
+    ensure!(fov > 0.0 && fov < 180.0, "expected degrees above 0 and below 180");
+    Ok(fov)
+}
+
+fn parse_metric(text: &str) -> anyhow::Result<Metric> {
+    let number = |text: &str| text.trim().parse::<f32>().ok().filter(|n| n.is_finite() && *n > 0.0);
+    match text.split_once('=').map(|(name, value)| (name.trim(), number(value))) {
+        Some(("edge", Some(pixels))) => Ok(Metric::Edge { pixels }),
+        Some(("distance", Some(factor))) => Ok(Metric::Distance { factor }),
+        _ => bail!("expected edge=PIXELS or distance=FACTOR, with a positive number"),
+    }
+}
+
+/// A positive number of seconds.
+pub fn parse_seconds(text: &str) -> anyhow::Result<f64> {
+    let seconds: f64 = text.parse().context("expected a number of seconds")?;
+    ensure!(seconds > 0.0 && seconds.is_finite(), "expected a number of seconds above 0");
+    Ok(seconds)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_have_two_positive_sides() {
+        assert_eq!(parse_size("1280x720").unwrap(), UVec2::new(1280, 720));
+        for wrong in ["", "12", "0x0", "0x5", "5x0", "-1x5", "axb", "1x2x3", "1.5x2"] {
+            assert!(parse_size(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn points_have_three_finite_numbers() {
+        assert_eq!(parse_point("-1,2.5,3e2").unwrap(), DVec3::new(-1.0, 2.5, 300.0));
+        for wrong in ["", "1,2", "1,2,3,4", "1,,2", "1,a,2,3", "nan,0,0", "1,inf,0"] {
+            assert!(parse_point(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn metrics_have_a_name_and_a_positive_number() {
+        assert_eq!(parse_metric("edge=4").unwrap(), Metric::Edge { pixels: 4.0 });
+        assert_eq!(parse_metric("distance=0.1").unwrap(), Metric::Distance { factor: 0.1 });
+        for wrong in ["edge", "edge=", "edge=0", "edge=-1", "edge=nan", "length=3"] {
+            assert!(parse_metric(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn fewer_pixels_replace_the_metric_of_the_scene() {
+        let none = Overrides { pixels: None, metric: None, capacity: None, base_grid: None, max_level: None };
+        let mut settings = Settings { max_level: 29, ..Settings::default() };
+        none.apply(&mut settings);
+        assert_eq!(settings, Settings { max_level: 29, ..Settings::default() });
+        Overrides { pixels: Some(3.0), base_grid: Some(4), ..none }.apply(&mut settings);
+        assert_eq!((settings.metric, settings.base_grid, settings.max_level), (Metric::Edge { pixels: 3.0 }, 4, 27));
+        settings.validate().unwrap();
+    }
+}

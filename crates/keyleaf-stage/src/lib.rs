@@ -1,0 +1,20 @@
+//! A scene of keyleaf on the GPU: what the program, the viewer and the tests share.
+//!
+//! | module | does |
+//! |---|---|
+//! | [`load`] | scene file, model or height map → surfaces with their settings and looks; no GPU |
+//! | [`plan`] | what those need on a GPU |
+//! | [`Stage`] | their quadtrees and draws |
+//! | [`Canvas`] | offscreen pictures |
+//! | [`check`] | what is wrong with what the GPU holds: nothing, one hopes |
+
+#![deny(missing_docs)]
+
+mod load;
+mod picture;
+pub mod plan;
+mod stage;
+
+pub use load::{LoadError, LoadOptions, Loaded, LoadedObject, load, settings, view_of};
+pub use picture::{Canvas, DEPTH, SAMPLES, target};
+pub use stage::{Effects, Show, Stage, StageLook, StageObject};

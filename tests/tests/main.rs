@@ -1,0 +1,33 @@
+//! GPU against CPU, cracks, watertight surfaces and hard cases. One binary and one device for all: linking wgpu and starting a
+//! device are what takes long. A test that needs a device fails if there is none.
+//!
+//! | module | holds the GPU to |
+//! |---|---|
+//! | [`shaders`], [`layouts`] | naga's view of every shader that a scene can ask for; no device |
+//! | [`twin`], [`metrics`] | the CPU twin of the update, fed with what the GPU published, and the f64 twins of the metrics |
+//! | [`every_pass`], [`checks`] | what must hold of every leaf set, and checks that can fail |
+//! | [`history`], [`starvation`], [`scaling`] | where it settles |
+//! | [`culling`], [`watertight`] | what is drawn |
+//! | [`hard_cases`], [`precision`], [`large`] | where numbers get very large, small or many |
+
+mod gpu;
+mod meshes;
+mod random;
+mod snapshot;
+mod surfaces;
+mod world;
+
+mod checks;
+mod culling;
+mod every_pass;
+mod hard_cases;
+mod history;
+mod large;
+mod layouts;
+mod metrics;
+mod precision;
+mod scaling;
+mod shaders;
+mod starvation;
+mod twin;
+mod watertight;

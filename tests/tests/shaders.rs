@@ -1,0 +1,130 @@
+//! Every shader that a scene can ask for composes and validates, and holds nothing that it did not ask for. No device.
+
+use keyleaf::draw::Sky;
+use keyleaf::inspect::Inspector;
+use keyleaf::shading::{Atmosphere, Channel, Material, Overlay};
+use keyleaf::{Balance, Kind, modules};
+use keyleaf_shaders::{FILES, compose, dependencies};
+use naga::valid::{Capabilities, ValidationFlags, Validator};
+use std::collections::BTreeSet;
+
+pub fn files_in(folder: &str) -> Vec<&'static str> {
+    FILES.iter().map(|(path, _)| *path).filter(|path| path.starts_with(folder)).collect()
+}
+
+pub fn kinds() -> Vec<Kind> {
+    let mut kinds = Vec::new();
+    for surface in files_in("surfaces/") {
+        for metric in files_in("metrics/") {
+            kinds.extend([Balance::Table, Balance::Off].map(|balance| Kind { surface, metric, balance }));
+        }
+    }
+    kinds
+}
+
+pub fn channels() -> Vec<Channel> {
+    let mut channels = vec![Channel::Normal, Channel::Level, Channel::Position];
+    for material in [Material::Plain, Material::Terrain, Material::Attributes, Material::Texture] {
+        for overlay in [Overlay::None, Overlay::Level, Overlay::Wireframe, Overlay::LevelWireframe] {
+            channels.extend([Atmosphere::None, Atmosphere::Haze].map(|air| Channel::Colour(material, overlay, air)));
+        }
+    }
+    channels
+}
+
+/// All sets of files that become a module.
+fn combinations() -> BTreeSet<Vec<&'static str>> {
+    let mut all: BTreeSet<Vec<&'static str>> = kinds().iter().flat_map(modules).map(|module| module.files).collect();
+    for surface in files_in("surfaces/") {
+        let with_surface = |mut files: Vec<&'static str>| {
+            files.push(surface);
+            files
+        };
+        all.extend(channels().iter().map(|channel| with_surface(channel.files())));
+        all.extend(Inspector::FILES.map(|file| with_surface(vec![file])));
+    }
+    all.insert(Sky::FILES.to_vec());
+    all
+}
+
+/// A module as naga reads it.
+pub fn parse(files: &[&str]) -> naga::Module {
+    let source = compose(files).expect("the files exist");
+    naga::front::wgsl::parse_str(&source).unwrap_or_else(|error| panic!("{files:?}: {}", error.emit_to_string(&source)))
+}
+
+/// The names of the functions that a file defines.
+fn functions_of(file: &str) -> BTreeSet<&'static str> {
+    let text = keyleaf_shaders::source(file).expect("a file");
+    text.lines().filter_map(|line| line.strip_prefix("fn ")).filter_map(|rest| rest.split_once('(')).map(|(name, _)| name).collect()
+}
+
+#[test]
+fn every_combination_is_valid() {
+    let all = combinations();
+    for files in &all {
+        let module = parse(files);
+        let validated = Validator::new(ValidationFlags::all(), Capabilities::default()).validate(&module);
+        assert!(validated.is_ok(), "{files:?}: {:?}", validated.err());
+    }
+    println!("{} modules", all.len());
+}
+
+#[test]
+fn every_file_is_used_by_some_combination() {
+    let used: BTreeSet<&str> = combinations().iter().flat_map(|files| dependencies(files).expect("the files exist")).collect();
+    let unused: Vec<&str> = FILES.iter().map(|(path, _)| *path).filter(|path| !used.contains(path)).collect();
+    assert_eq!(unused, [] as [&str; 0]);
+}
+
+#[test]
+fn a_module_has_the_functions_of_its_files_and_no_others() {
+    for files in combinations() {
+        let own: BTreeSet<&str> = dependencies(&files).expect("the files exist").into_iter().flat_map(functions_of).collect();
+        let module = parse(&files);
+        let foreign = module.functions.iter().filter_map(|(_, f)| f.name.as_deref()).find(|name| !own.contains(name));
+        assert_eq!(foreign, None, "{files:?}");
+    }
+}
+
+/// Functions of an effect, the effect's name in a file, and who may have them.
+#[test]
+fn what_a_scene_does_not_name_is_not_in_its_shaders() {
+    let effects: [(&str, &[&str]); 9] = [
+        ("heights", &["height"]),
+        ("noise2", &["terrain.wgsl"]),
+        ("noise3", &["displaced_noise"]),
+        ("displaced", &["displaced"]),
+        ("wire", &["wireframe"]),
+        ("haze", &["haze"]),
+        ("level_colour", &["overlay_level", "draw/level"]),
+        ("material_texture", &["material_texture"]),
+        ("material_terrain", &["material_terrain"]),
+    ];
+    for files in combinations() {
+        let has = |word: &str| files.iter().any(|file| file.contains(word));
+        let composed = dependencies(&files).expect("the files exist");
+        for (effect, namers) in effects {
+            let is_named = namers.iter().any(|word| has(word)) || (effect == "heights" && has("displaced_texture"));
+            let found = composed.iter().find(|file| file.contains(effect));
+            assert!(is_named || found.is_none(), "{files:?} did not name {effect}, but has {found:?}");
+        }
+        let functions: Vec<String> = parse(&files).functions.iter().filter_map(|(_, f)| f.name.clone()).collect();
+        for (marker, namers) in [("noise", &["noise", "terrain.wgsl"][..]), ("height", &["height", "displaced_texture", "terrain"]), ("wire", &["wireframe"]), ("haze", &["haze"])] {
+            let is_named = namers.iter().any(|word| has(word));
+            let found = functions.iter().find(|name| name.contains(marker));
+            assert!(is_named || found.is_none(), "{files:?} did not name {marker}, but has fn {found:?}");
+        }
+    }
+}
+
+#[test]
+fn the_update_without_neighbour_test_has_no_table() {
+    for kind in kinds().into_iter().filter(|kind| kind.balance == Balance::Off) {
+        for module in modules(&kind) {
+            let composed = dependencies(&module.files).expect("the files exist");
+            let found = composed.iter().find(|file| file.contains("table_"));
+            assert_eq!(found, None, "{}", module.name);
+        }
+    }
+}

@@ -35,19 +35,34 @@ fn samples([a, b, c]: [RootPoint; 3], random: &mut Random) -> Vec<RootPoint> {
             let [a, b, c] = [a, b, c].map(f64::from);
             (a + s * (b - a) + t * (c - a)) as u32
         };
-        points.push(RootPoint { x: mix(a.x, b.x, c.x), y: mix(a.y, b.y, c.y), ..a });
+        points.push(RootPoint {
+            x: mix(a.x, b.x, c.x),
+            y: mix(a.y, b.y, c.y),
+            ..a
+        });
     }
     points
 }
 
 fn check(name: &str, surface: &Arc<dyn Surface>, transform: DAffine3, views: usize, tally: &mut (usize, usize)) {
-    let mut world = World::placed(surface, transform, Settings { capacity: 4000, ..settings(Metric::Edge { pixels: 30.0 }) });
+    let mut world = World::placed(
+        surface,
+        transform,
+        Settings {
+            capacity: 4000,
+            ..settings(Metric::Edge { pixels: 30.0 })
+        },
+    );
     let mut random = Random(17);
     for i in 0..views {
         let mut view = random_view(&mut random, surface.as_ref());
         if i % 4 == 3 {
             let size = size_of_box(surface.bounding_box());
-            view.projection = Projection::Orthographic { height: size * 0.2, near: 0.0, far: size };
+            view.projection = Projection::Orthographic {
+                height: size * 0.2,
+                near: 0.0,
+                far: size,
+            };
         }
         view.eye = transform.transform_point3(view.eye);
         let snapshot = world.passes(&view, 10);
@@ -60,7 +75,9 @@ fn check(name: &str, surface: &Arc<dyn Surface>, transform: DAffine3, views: usi
             }
             tally.1 += 1;
             let triangle = place.drawn(is_pair).expect("a drawn slot");
-            let seen = samples(triangle, &mut random).into_iter().find(|at| is_seen(&view, transform.transform_point3(surface.point(*at))));
+            let seen = samples(triangle, &mut random)
+                .into_iter()
+                .find(|at| is_seen(&view, transform.transform_point3(surface.point(*at))));
             assert_eq!(seen, None, "{name}, view {i}: {place:?}, pair: {is_pair}, is culled");
         }
     }
@@ -68,7 +85,11 @@ fn check(name: &str, surface: &Arc<dyn Surface>, transform: DAffine3, views: usi
 
 #[test]
 fn no_leaf_with_a_point_inside_the_view_is_culled() {
-    let placed = DAffine3::from_scale_rotation_translation(DVec3::new(2.0, 0.5, 1.0), DQuat::from_rotation_x(0.6), DVec3::new(5.0, 1.0, -2.0));
+    let placed = DAffine3::from_scale_rotation_translation(
+        DVec3::new(2.0, 0.5, 1.0),
+        DQuat::from_rotation_x(0.6),
+        DVec3::new(5.0, 1.0, -2.0),
+    );
     let mut tally = (0, 0);
     for (name, surface) in surfaces::all() {
         check(name, &surface, DAffine3::IDENTITY, 10, &mut tally);
@@ -85,7 +106,13 @@ fn what_is_behind_the_camera_is_culled() {
         let (low, high) = surface.bounding_box();
         let size = size_of_box((low, high));
         let eye = high + DVec3::splat(3.0 * size);
-        let view = View::look_at(eye, eye + DVec3::splat(size), 1.0, 0.01 * size, glam::UVec2::new(300, 200));
+        let view = View::look_at(
+            eye,
+            eye + DVec3::splat(size),
+            1.0,
+            0.01 * size,
+            glam::UVec2::new(300, 200),
+        );
         let snapshot = World::new(&surface, settings(Metric::Edge { pixels: 30.0 })).passes(&view, 3);
         assert_eq!(snapshot.visible, [] as [u32; 0], "{name}");
     }

@@ -26,7 +26,16 @@ fn flight(surface: &dyn Surface) -> Vec<(String, View)> {
         view.orientation = DQuat::from_rotation_y(f64::from(step) * 0.9) * view.orientation;
         views.push((format!("turn {step}"), view));
     }
-    for (step, (x, y, z)) in [(0.1, 0.2, 0.9), (0.9, 1.1, 0.1), (-1.0, 0.5, -1.5), (0.5, 0.5, 0.5), (0.3, 3.0, 0.3)].into_iter().enumerate() {
+    for (step, (x, y, z)) in [
+        (0.1, 0.2, 0.9),
+        (0.9, 1.1, 0.1),
+        (-1.0, 0.5, -1.5),
+        (0.5, 0.5, 0.5),
+        (0.3, 3.0, 0.3),
+    ]
+    .into_iter()
+    .enumerate()
+    {
         let view = look(low + (high - low) * DVec3::new(x, y, z), (low + high) / 2.0);
         views.extend((0..3).map(|pass| (format!("teleport {step} pass {pass}"), view)));
     }
@@ -60,8 +69,18 @@ fn a_full_buffer_stays_complete_and_free_of_cracks_and_says_so() {
     for (name, surface) in surfaces::all() {
         let roots = surface.topology().half_edge_count();
         for capacity in [roots, roots + 5, 200] {
-            let (most, starved) = fly(name, &surface, Settings { capacity, ..settings(EDGE) });
-            assert!(most <= capacity && starved > 0, "{name}, capacity {capacity}: {most} leaves, {starved} starved");
+            let (most, starved) = fly(
+                name,
+                &surface,
+                Settings {
+                    capacity,
+                    ..settings(EDGE)
+                },
+            );
+            assert!(
+                most <= capacity && starved > 0,
+                "{name}, capacity {capacity}: {most} leaves, {starved} starved"
+            );
         }
     }
 }
@@ -71,7 +90,16 @@ fn nothing_is_wrong_with_four_passes_a_frame_nor_on_any_base_grid() {
     let all = surfaces::all();
     for (k, (name, surface)) in [(0, &all[2]), (1, &all[3]), (2, &all[6]), (3, &all[4])] {
         for settle in [1, 4] {
-            fly(name, surface, Settings { settle, base_grid: k, max_level: 31 - k, ..settings(keyleaf::Metric::Edge { pixels: 12.0 }) });
+            fly(
+                name,
+                surface,
+                Settings {
+                    settle,
+                    base_grid: k,
+                    max_level: 31 - k,
+                    ..settings(keyleaf::Metric::Edge { pixels: 12.0 })
+                },
+            );
         }
     }
 }
@@ -80,17 +108,53 @@ fn nothing_is_wrong_with_four_passes_a_frame_nor_on_any_base_grid() {
 fn nothing_is_wrong_without_guard_band_or_culling_or_with_a_target_of_leaves() {
     let all = surfaces::all();
     for (name, surface) in [&all[2], &all[6]] {
-        fly(name, surface, Settings { guard_factor: 1.0, ..settings(EDGE) });
-        fly(name, surface, Settings { cull: false, ..settings(EDGE) });
-        fly(name, surface, Settings { target_leaves: 900, ..settings(EDGE) });
-        fly(name, surface, Settings { target_leaves: 900, capacity: 700, settle: 3, ..settings(EDGE) });
+        fly(
+            name,
+            surface,
+            Settings {
+                guard_factor: 1.0,
+                ..settings(EDGE)
+            },
+        );
+        fly(
+            name,
+            surface,
+            Settings {
+                cull: false,
+                ..settings(EDGE)
+            },
+        );
+        fly(
+            name,
+            surface,
+            Settings {
+                target_leaves: 900,
+                ..settings(EDGE)
+            },
+        );
+        fly(
+            name,
+            surface,
+            Settings {
+                target_leaves: 900,
+                capacity: 700,
+                settle: 3,
+                ..settings(EDGE)
+            },
+        );
     }
 }
 
 #[test]
 fn without_culling_every_drawn_leaf_is_listed() {
     for (name, surface) in surfaces::all() {
-        let mut world = World::new(&surface, Settings { cull: false, ..settings(EDGE) });
+        let mut world = World::new(
+            &surface,
+            Settings {
+                cull: false,
+                ..settings(EDGE)
+            },
+        );
         let (_, view) = flight(surface.as_ref()).swap_remove(6);
         let snapshot = world.passes(&view, 12);
         let mut listed = snapshot.visible.clone();
@@ -102,7 +166,13 @@ fn without_culling_every_drawn_leaf_is_listed() {
 #[test]
 fn the_table_is_rebuilt_now_and_then_and_stays_exact() {
     let surface = surfaces::flat(&crate::meshes::cube());
-    let mut world = World::new(&surface, Settings { capacity: 600, ..settings(EDGE) });
+    let mut world = World::new(
+        &surface,
+        Settings {
+            capacity: 600,
+            ..settings(EDGE)
+        },
+    );
     let mut rebuilds = 0;
     for round in 0..6 {
         for (what, view) in flight(surface.as_ref()) {

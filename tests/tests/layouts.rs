@@ -15,14 +15,29 @@ use std::mem::{offset_of, size_of};
 
 /// (member, offset) of a struct, and its size.
 fn members(module: &Module, name: &str) -> (Vec<(String, u32)>, u32) {
-    let (_, ty) = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(name)).unwrap_or_else(|| panic!("no struct {name}"));
-    let TypeInner::Struct { members, span } = &ty.inner else { panic!("{name} is no struct") };
-    (members.iter().map(|m| (m.name.clone().unwrap_or_default(), m.offset)).collect(), *span)
+    let (_, ty) = module
+        .types
+        .iter()
+        .find(|(_, ty)| ty.name.as_deref() == Some(name))
+        .unwrap_or_else(|| panic!("no struct {name}"));
+    let TypeInner::Struct { members, span } = &ty.inner else {
+        panic!("{name} is no struct")
+    };
+    (
+        members
+            .iter()
+            .map(|m| (m.name.clone().unwrap_or_default(), m.offset))
+            .collect(),
+        *span,
+    )
 }
 
 fn assert_members(files: &[&str], name: &str, expected: &[(&str, usize)], size: usize) {
     let (found, span) = members(&parse(files), name);
-    let expected: Vec<(String, u32)> = expected.iter().map(|(member, offset)| ((*member).to_owned(), *offset as u32)).collect();
+    let expected: Vec<(String, u32)> = expected
+        .iter()
+        .map(|(member, offset)| ((*member).to_owned(), *offset as u32))
+        .collect();
     assert_eq!((found, span as usize), (expected, size), "{name}");
 }
 
@@ -59,9 +74,16 @@ fn control() {
 
 #[test]
 fn attributes() {
-    let (found, span) = members(&parse(&["draw/varying_attributes.wgsl", "surfaces/mesh.wgsl"]), "Attribute");
+    let (found, span) = members(
+        &parse(&["draw/varying_attributes.wgsl", "surfaces/mesh.wgsl"]),
+        "Attribute",
+    );
     let offsets: Vec<usize> = found.iter().map(|(_, offset)| *offset as usize).collect();
-    let fields = [offset_of!(Attribute, normal), offset_of!(Attribute, colour), offset_of!(Attribute, uv)];
+    let fields = [
+        offset_of!(Attribute, normal),
+        offset_of!(Attribute, colour),
+        offset_of!(Attribute, uv),
+    ];
     assert_eq!((&offsets[..3], span as usize), (&fields[..], size_of::<Attribute>()));
 }
 
@@ -104,6 +126,7 @@ fn frame() {
         table_mask: 8,
         target_leaves: 9,
         base_grid: 10,
+        view_serial: 11,
     };
     let f = f32::to_bits;
     let words = [
@@ -122,6 +145,7 @@ fn frame() {
         ("table_mask", 8),
         ("target_leaves", 9),
         ("base_grid", 10),
+        ("view_serial", 11),
     ];
     assert_uniform(&["shared/frame.wgsl"], "Frame", &value, &words);
 }
@@ -153,13 +177,24 @@ fn shading() {
 
 #[test]
 fn background() {
-    let value = Background { world_from_clip: matrix(7.0) };
-    assert_uniform(&Sky::FILES, "Background", &value, &[("world_from_clip", f32::to_bits(7.0))]);
+    let value = Background {
+        world_from_clip: matrix(7.0),
+    };
+    assert_uniform(
+        &Sky::FILES,
+        "Background",
+        &value,
+        &[("world_from_clip", f32::to_bits(7.0))],
+    );
 }
 
 /// The value of a u32 constant.
 fn constant(module: &Module, name: &str) -> u32 {
-    let (_, constant) = module.constants.iter().find(|(_, c)| c.name.as_deref() == Some(name)).unwrap_or_else(|| panic!("no constant {name}"));
+    let (_, constant) = module
+        .constants
+        .iter()
+        .find(|(_, c)| c.name.as_deref() == Some(name))
+        .unwrap_or_else(|| panic!("no constant {name}"));
     match module.global_expressions[constant.init] {
         naga::Expression::Literal(Literal::U32(value)) => value,
         ref other => panic!("{name} is {other:?}"),
@@ -188,7 +223,10 @@ fn arguments_and_constants() {
     assert_eq!(constant(&copy, "GROUP_SIZE"), layout::GROUP_SIZE);
     assert_eq!(constant(&copy, "UPDATE_LEAVES"), layout::UPDATE_LEAVES);
     let update = parse(&["passes/update.wgsl", "shared/balance.wgsl"]);
-    assert_eq!(constant(&update, "GROUP_SIZE") * constant(&update, "LEAVES_PER_INVOCATION"), layout::UPDATE_LEAVES);
+    assert_eq!(
+        constant(&update, "GROUP_SIZE") * constant(&update, "LEAVES_PER_INVOCATION"),
+        layout::UPDATE_LEAVES
+    );
     for (name, value) in [
         ("PAIR", layout::state::PAIR),
         ("FRESH", layout::state::FRESH),
@@ -213,7 +251,11 @@ fn workgroups_are_as_large_as_the_arguments_say() {
     for module in kinds().iter().flat_map(modules) {
         let naga = parse(&module.files);
         for entry in module.entries {
-            let found = naga.entry_points.iter().find(|e| e.name == *entry).unwrap_or_else(|| panic!("no entry point {entry}"));
+            let found = naga
+                .entry_points
+                .iter()
+                .find(|e| e.name == *entry)
+                .unwrap_or_else(|| panic!("no entry point {entry}"));
             let size = if module.name == "copy" { 1 } else { layout::GROUP_SIZE };
             assert_eq!(found.workgroup_size, [size, 1, 1], "{entry}");
         }
@@ -244,7 +286,14 @@ fn is_storage(kind: &Binding) -> bool {
 }
 
 /// What group 1 may hold: parameters, topology, tables A and B, heights, bounds of heights.
-const SURFACE: [Binding; 6] = [Binding::Uniform, Binding::Read, Binding::Read, Binding::Read, Binding::Texels, Binding::Texels];
+const SURFACE: [Binding; 6] = [
+    Binding::Uniform,
+    Binding::Read,
+    Binding::Read,
+    Binding::Read,
+    Binding::Texels,
+    Binding::Texels,
+];
 
 #[test]
 fn the_update_declares_the_bindings_of_its_layouts_and_at_most_eight_storage_buffers() {
@@ -254,12 +303,25 @@ fn the_update_declares_the_bindings_of_its_layouts_and_at_most_eight_storage_buf
         for module in modules(&kind) {
             let found = declared(&parse(&module.files));
             for ((group, binding), kind) in &found {
-                let expected = if *group == 0 { module.bindings.get(*binding as usize) } else { SURFACE.get(*binding as usize) };
+                let expected = if *group == 0 {
+                    module.bindings.get(*binding as usize)
+                } else {
+                    SURFACE.get(*binding as usize)
+                };
                 assert_eq!(Some(kind), expected, "{} group {group} binding {binding}", module.name);
-                assert!(*group == 0 || (*group == 1 && module.uses_surface), "{} group {group}", module.name);
+                assert!(
+                    *group == 0 || (*group == 1 && module.uses_surface),
+                    "{} group {group}",
+                    module.name
+                );
             }
             for (binding, expected) in (0..).zip(module.bindings).filter(|(_, kind)| **kind != Binding::Absent) {
-                assert_eq!(found.get(&(0, binding)), Some(expected), "{} binding {binding} is in the layout only", module.name);
+                assert_eq!(
+                    found.get(&(0, binding)),
+                    Some(expected),
+                    "{} binding {binding} is in the layout only",
+                    module.name
+                );
             }
             let storage = module.bindings.iter().filter(|kind| is_storage(kind)).count();
             let all = storage + if module.uses_surface { of_surface } else { 0 };
@@ -278,7 +340,11 @@ fn no_draw_binds_more_than_eight_storage_buffers() {
             let storage = found.values().filter(|kind| is_storage(kind)).count();
             assert!(storage <= 8, "{files:?}: {storage}");
             for ((_, binding), kind) in found.iter().filter(|((group, _), _)| *group == 1) {
-                assert_eq!(Some(kind), SURFACE.get(*binding as usize), "{files:?} group 1 binding {binding}");
+                assert_eq!(
+                    Some(kind),
+                    SURFACE.get(*binding as usize),
+                    "{files:?} group 1 binding {binding}"
+                );
             }
         }
     }
@@ -288,24 +354,74 @@ fn no_draw_binds_more_than_eight_storage_buffers() {
 fn parameters_of_surfaces_lie_where_the_shaders_read_them() {
     let expected: &[(&str, &[(&str, u32)])] = &[
         ("cube", &[("vertices", 8), ("faces", 6)]),
-        ("house with noise", &[("vertices", 11), ("faces", 11), ("octaves", 4), ("seed", 7), ("frequency", 2.5f32.to_bits()), ("gain", 0.5f32.to_bits()), ("amplitude", 0.08f32.to_bits())]),
-        ("cube with texture", &[("vertices", 8), ("faces", 6), ("size", 24), ("scale", 1e-3f32.to_bits()), ("offset", 0.02f32.to_bits()), ("repeats", 1)]),
-        ("height field", &[("cells", 32), ("scale", 1f32.to_bits()), ("shift", 100f32.to_bits())]),
-        ("bilinear height field", &[("cells", 32), ("scale", 1f32.to_bits()), ("shift", 100f32.to_bits())]),
-        ("terrain", &[("first_bits", 2), ("octaves", 8), ("seed", 1), ("gain", 0.5f32.to_bits()), ("ridged", 0.7f32.to_bits()), ("contrast", 0.8f32.to_bits())]),
+        (
+            "house with noise",
+            &[
+                ("vertices", 11),
+                ("faces", 11),
+                ("octaves", 4),
+                ("seed", 7),
+                ("frequency", 2.5f32.to_bits()),
+                ("gain", 0.5f32.to_bits()),
+                ("amplitude", 0.08f32.to_bits()),
+            ],
+        ),
+        (
+            "cube with texture",
+            &[
+                ("vertices", 8),
+                ("faces", 6),
+                ("size", 24),
+                ("scale", 1e-3f32.to_bits()),
+                ("offset", 0.02f32.to_bits()),
+                ("repeats", 1),
+            ],
+        ),
+        (
+            "height field",
+            &[("cells", 32), ("scale", 1f32.to_bits()), ("shift", 100f32.to_bits())],
+        ),
+        (
+            "bilinear height field",
+            &[("cells", 32), ("scale", 1f32.to_bits()), ("shift", 100f32.to_bits())],
+        ),
+        (
+            "terrain",
+            &[
+                ("first_bits", 2),
+                ("octaves", 8),
+                ("seed", 1),
+                ("gain", 0.5f32.to_bits()),
+                ("ridged", 0.7f32.to_bits()),
+                ("contrast", 0.8f32.to_bits()),
+            ],
+        ),
     ];
     for (name, surface) in crate::surfaces::all() {
-        let Some((_, words)) = expected.iter().find(|(n, _)| *n == name) else { continue };
+        let Some((_, words)) = expected.iter().find(|(n, _)| *n == name) else {
+            continue;
+        };
         let module = parse(&[surface.shader()]);
-        let uniform = module.global_variables.iter().find(|(_, g)| g.space == AddressSpace::Uniform).expect("parameters");
+        let uniform = module
+            .global_variables
+            .iter()
+            .find(|(_, g)| g.space == AddressSpace::Uniform)
+            .expect("parameters");
         let type_name = module.types[uniform.1.ty].name.clone().expect("a name");
         let (found, span) = members(&module, &type_name);
         let params = surface.tables(glam::DVec3::ZERO).params;
         assert_eq!(params.len(), span.next_multiple_of(16) as usize, "{name}");
         for (member, word) in *words {
-            let (_, at) = found.iter().find(|(n, _)| n == member).unwrap_or_else(|| panic!("{name} has no {member}"));
+            let (_, at) = found
+                .iter()
+                .find(|(n, _)| n == member)
+                .unwrap_or_else(|| panic!("{name} has no {member}"));
             let at = *at as usize;
-            assert_eq!(u32::from_le_bytes(params[at..at + 4].try_into().expect("four bytes")), *word, "{name}: {member}");
+            assert_eq!(
+                u32::from_le_bytes(params[at..at + 4].try_into().expect("four bytes")),
+                *word,
+                "{name}: {member}"
+            );
         }
     }
 }

@@ -5,13 +5,24 @@ use glam::DVec3;
 use keyleaf::surface::{CornerAttributes, Faces, PolygonMesh};
 
 pub fn mesh(positions: Vec<DVec3>, faces: impl IntoIterator<Item = Vec<u32>>) -> PolygonMesh {
-    PolygonMesh { positions, faces: faces.into_iter().collect::<Faces>(), corners: CornerAttributes::default() }
+    PolygonMesh {
+        positions,
+        faces: faces.into_iter().collect::<Faces>(),
+        corners: CornerAttributes::default(),
+    }
 }
 
 /// The unit cube: vertex 4x + 2y + z.
 pub fn cube() -> PolygonMesh {
     let corner = |v: u32| DVec3::new(f64::from(v >> 2), f64::from(v >> 1 & 1), f64::from(v & 1));
-    let faces = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]];
+    let faces = [
+        [0, 1, 3, 2],
+        [4, 6, 7, 5],
+        [0, 4, 5, 1],
+        [2, 3, 7, 6],
+        [0, 2, 6, 4],
+        [1, 5, 7, 3],
+    ];
     mesh((0..8).map(corner).collect(), faces.map(Vec::from))
 }
 
@@ -42,10 +53,28 @@ pub fn house() -> PolygonMesh {
 /// An open mesh: a triangle, quads, a hexagon, a vertex where only corners touch, and a face on its own.
 pub fn open() -> PolygonMesh {
     let at = [
-        [0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [2.0, 0.2], [-0.5, 1.5], [1.2, 2.0], [0.6, 2.6], [-0.2, 2.3],
-        [3.0, 0.0], [2.8, 1.0], [4.0, 0.0], [4.0, 1.0], [3.2, 0.6], [5.0, 0.1], [5.0, 1.1],
+        [0.0, 0.0],
+        [1.0, 0.0],
+        [1.0, 1.0],
+        [0.0, 1.0],
+        [2.0, 0.2],
+        [-0.5, 1.5],
+        [1.2, 2.0],
+        [0.6, 2.6],
+        [-0.2, 2.3],
+        [3.0, 0.0],
+        [2.8, 1.0],
+        [4.0, 0.0],
+        [4.0, 1.0],
+        [3.2, 0.6],
+        [5.0, 0.1],
+        [5.0, 1.1],
     ];
-    let positions = at.iter().enumerate().map(|(i, [x, y])| DVec3::new(*x, 0.1 * (i as f64 * 1.7).sin(), -*y)).collect();
+    let positions = at
+        .iter()
+        .enumerate()
+        .map(|(i, [x, y])| DVec3::new(*x, 0.1 * (i as f64 * 1.7).sin(), -*y))
+        .collect();
     let faces = [
         vec![0, 1, 2, 3],
         vec![2, 1, 4],
@@ -75,7 +104,10 @@ pub fn torus(around: u32, across: u32) -> PolygonMesh {
 /// A closed box, a million times longer than wide.
 pub fn sliver() -> PolygonMesh {
     let mut sliver = cube();
-    sliver.positions.iter_mut().for_each(|p| *p *= DVec3::new(1.0, 1e-6, 1e-6));
+    sliver
+        .positions
+        .iter_mut()
+        .for_each(|p| *p *= DVec3::new(1.0, 1e-6, 1e-6));
     sliver
 }
 
@@ -89,12 +121,21 @@ pub fn random(seed: u64) -> PolygonMesh {
     let mut random = Random(seed);
     let (width, height) = (1 + random.below(3), 1 + random.below(3));
     let (tube, torus) = (width == 3 && random.below(2) == 0, height == 3 && random.below(2) == 0);
-    let (columns, rows) = (if tube { width } else { width + 1 }, if torus { height } else { height + 1 });
+    let (columns, rows) = (
+        if tube { width } else { width + 1 },
+        if torus { height } else { height + 1 },
+    );
     let vertex = |i: u32, j: u32| i % columns + columns * (j % rows);
     let mut positions = Vec::new();
     for (i, j) in (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j))) {
         let (u, v) = (f64::from(i), f64::from(j));
-        let around = |bent: bool, t: f64, count: u32| if bent { (t / f64::from(count) * std::f64::consts::TAU).sin_cos() } else { (t, 1.0) };
+        let around = |bent: bool, t: f64, count: u32| {
+            if bent {
+                (t / f64::from(count) * std::f64::consts::TAU).sin_cos()
+            } else {
+                (t, 1.0)
+            }
+        };
         let ((x, lift), (z, out)) = (around(tube, u, columns), around(torus, v, rows));
         let shake = random.point((DVec3::splat(-0.1), DVec3::splat(0.1)));
         positions.push(DVec3::new(x, if tube { lift } else { out }, -z) + shake);

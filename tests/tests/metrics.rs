@@ -29,7 +29,10 @@ fn compare(world: &mut World, view: &View, passes: u32, case: &str) -> usize {
             let requested = requests.get(&place).copied().unwrap_or(0.0);
             let expected = world.wish(view, &place).max(requested.into());
             let published = f64::from(state::wish(*word));
-            assert!((published - expected).abs() <= TOLERANCE * expected, "{case}: {published} for {expected} of {place:?}");
+            assert!(
+                (published - expected).abs() <= TOLERANCE * expected,
+                "{case}: {published} for {expected} of {place:?}"
+            );
             compared += 1;
         }
         before = after;
@@ -48,8 +51,15 @@ fn views(random: &mut Random, surface: &dyn Surface) -> Vec<View> {
         view
     };
     let mut views: Vec<View> = (0..4).map(|_| far(random)).collect();
-    let orthographic = Projection::Orthographic { height: size / 3.0, near: -size, far: 4.0 * size };
-    views.push(View { projection: orthographic, ..views[0] });
+    let orthographic = Projection::Orthographic {
+        height: size / 3.0,
+        near: -size,
+        far: 4.0 * size,
+    };
+    views.push(View {
+        projection: orthographic,
+        ..views[0]
+    });
     views
 }
 
@@ -59,12 +69,28 @@ fn published_wishes_are_those_of_the_f64_twin_to_two_to_the_minus_16() {
     for (name, surface) in surfaces::all() {
         for metric in [Metric::Distance { factor: 0.06 }, Metric::Edge { pixels: 8.0 }] {
             // A bound of f32 heights is a bound, not a number to compare: bounds of displaced and mapped surfaces are rounded up.
-            let is_exact = metric.name() == "distance" || ["cube", "tetrahedron", "house", "open mesh", "terrain", "house with noise"].contains(&name);
+            let is_exact = metric.name() == "distance"
+                || [
+                    "cube",
+                    "tetrahedron",
+                    "house",
+                    "open mesh",
+                    "terrain",
+                    "house with noise",
+                ]
+                .contains(&name);
             if !is_exact {
                 continue;
             }
-            let settings = Settings { guard_factor: 1.0, ..settings(metric) };
-            let placed = DAffine3::from_scale_rotation_translation(DVec3::splat(1.7), DQuat::from_rotation_z(0.4), DVec3::new(0.3, -0.2, 0.1));
+            let settings = Settings {
+                guard_factor: 1.0,
+                ..settings(metric)
+            };
+            let placed = DAffine3::from_scale_rotation_translation(
+                DVec3::splat(1.7),
+                DQuat::from_rotation_z(0.4),
+                DVec3::new(0.3, -0.2, 0.1),
+            );
             for transform in [DAffine3::IDENTITY, placed] {
                 let mut world = World::placed(&surface, transform, settings);
                 for (i, view) in views(&mut Random(5), surface.as_ref()).into_iter().enumerate() {
@@ -78,7 +104,10 @@ fn published_wishes_are_those_of_the_f64_twin_to_two_to_the_minus_16() {
 
 /// The nodes that are split when these are the leaves.
 fn split(leaves: impl IntoIterator<Item = Place>) -> BTreeSet<Place> {
-    leaves.into_iter().flat_map(|leaf| leaf.ancestors().collect::<Vec<_>>()).collect()
+    leaves
+        .into_iter()
+        .flat_map(|leaf| leaf.ancestors().collect::<Vec<_>>())
+        .collect()
 }
 
 #[test]
@@ -93,14 +122,24 @@ fn settled_leaves_differ_from_the_f64_twins_only_where_the_metric_is_at_the_thre
             if name == "height field" && metric.name() == "edge" {
                 continue; // sizes are bounds there: see above
             }
-            let mut world = World::new(&surface, Settings { guard_factor: 1.0, ..settings(metric) });
+            let mut world = World::new(
+                &surface,
+                Settings {
+                    guard_factor: 1.0,
+                    ..settings(metric)
+                },
+            );
             for view in views(&mut Random(9), surface.as_ref()) {
                 let settled = places(&world.passes(&view, 40));
                 let twin = Forest::new(surface.topology(), 31);
                 let with = |factor: f64| split(twin.coarsest_balanced(|node| world.wish(&view, node) * factor));
                 let (least, most) = (with(1.0 - TOLERANCE), with(1.0 + TOLERANCE));
                 let found = split(settled.iter().copied());
-                assert!(least.is_subset(&found) && found.is_subset(&most), "{name}, {}", metric.name());
+                assert!(
+                    least.is_subset(&found) && found.is_subset(&most),
+                    "{name}, {}",
+                    metric.name()
+                );
             }
         }
     }
@@ -109,7 +148,10 @@ fn settled_leaves_differ_from_the_f64_twins_only_where_the_metric_is_at_the_thre
 #[test]
 fn each_pass_of_gpu_and_f64_twin_alike_unless_the_metric_is_at_the_threshold() {
     let surface = surfaces::flat(&crate::meshes::cube());
-    let settings = Settings { guard_factor: 1.0, ..settings(Metric::Distance { factor: 0.08 }) };
+    let settings = Settings {
+        guard_factor: 1.0,
+        ..settings(Metric::Distance { factor: 0.08 })
+    };
     for view in views(&mut Random(21), surface.as_ref()) {
         let mut world = World::new(&surface, settings);
         let mut twin = Forest::new(surface.topology(), 31);
@@ -120,9 +162,15 @@ fn each_pass_of_gpu_and_f64_twin_alike_unless_the_metric_is_at_the_threshold() {
             twin.update(|node| world.wish(&view, node), settings.capacity as usize);
             let expected: BTreeSet<Place> = twin.leaves.keys().copied().collect();
             let at_threshold = |place: &Place| {
-                place.ancestors().chain([*place]).any(|node| (world.wish(&view, &node) - 1.0).abs() <= TOLERANCE)
+                place
+                    .ancestors()
+                    .chain([*place])
+                    .any(|node| (world.wish(&view, &node) - 1.0).abs() <= TOLERANCE)
             };
-            let differing: Vec<&Place> = found.symmetric_difference(&expected).filter(|place| !at_threshold(place)).collect();
+            let differing: Vec<&Place> = found
+                .symmetric_difference(&expected)
+                .filter(|place| !at_threshold(place))
+                .collect();
             assert!(differing.is_empty(), "pass {pass}: {differing:?}");
             if found != expected {
                 break; // histories have parted at the threshold
@@ -136,8 +184,20 @@ fn the_distance_metric_gives_the_level_of_its_formula() {
     // Khoury 2.1: LoD = -log2(distance tan(fovy / 2) / (sqrt 2 factor)); a leaf is the first level that is not below it.
     let surface = surfaces::flat(&crate::meshes::cube());
     let (factor, fov, distance) = (0.5f32, 0.9f64, 40.0f64);
-    let view = View::look_at(DVec3::new(0.5, 0.5, distance), DVec3::splat(0.5), fov, 0.1, UVec2::new(200, 200));
-    let mut world = World::new(&surface, Settings { guard_factor: 1.0, ..settings(Metric::Distance { factor: factor * 16.0 }) });
+    let view = View::look_at(
+        DVec3::new(0.5, 0.5, distance),
+        DVec3::splat(0.5),
+        fov,
+        0.1,
+        UVec2::new(200, 200),
+    );
+    let mut world = World::new(
+        &surface,
+        Settings {
+            guard_factor: 1.0,
+            ..settings(Metric::Distance { factor: factor * 16.0 })
+        },
+    );
     let snapshot = world.passes(&view, 20);
     let lod = |d: f64| -(d * (fov / 2.0).tan() / (std::f64::consts::SQRT_2 * f64::from(factor) * 16.0)).log2();
     for leaf in &snapshot.leaves {

@@ -9,14 +9,22 @@ use naga::valid::{Capabilities, ValidationFlags, Validator};
 use std::collections::BTreeSet;
 
 pub fn files_in(folder: &str) -> Vec<&'static str> {
-    FILES.iter().map(|(path, _)| *path).filter(|path| path.starts_with(folder)).collect()
+    FILES
+        .iter()
+        .map(|(path, _)| *path)
+        .filter(|path| path.starts_with(folder))
+        .collect()
 }
 
 pub fn kinds() -> Vec<Kind> {
     let mut kinds = Vec::new();
     for surface in files_in("surfaces/") {
         for metric in files_in("metrics/") {
-            kinds.extend([Balance::Table, Balance::Off].map(|balance| Kind { surface, metric, balance }));
+            kinds.extend([Balance::Table, Balance::Off].map(|balance| Kind {
+                surface,
+                metric,
+                balance,
+            }));
         }
     }
     kinds
@@ -24,8 +32,18 @@ pub fn kinds() -> Vec<Kind> {
 
 pub fn channels() -> Vec<Channel> {
     let mut channels = vec![Channel::Normal, Channel::Level, Channel::Position];
-    for material in [Material::Plain, Material::Terrain, Material::Attributes, Material::Texture] {
-        for overlay in [Overlay::None, Overlay::Level, Overlay::Wireframe, Overlay::LevelWireframe] {
+    for material in [
+        Material::Plain,
+        Material::Terrain,
+        Material::Attributes,
+        Material::Texture,
+    ] {
+        for overlay in [
+            Overlay::None,
+            Overlay::Level,
+            Overlay::Wireframe,
+            Overlay::LevelWireframe,
+        ] {
             channels.extend([Atmosphere::None, Atmosphere::Haze].map(|air| Channel::Colour(material, overlay, air)));
         }
     }
@@ -56,7 +74,11 @@ pub fn parse(files: &[&str]) -> naga::Module {
 /// The names of the functions that a file defines.
 fn functions_of(file: &str) -> BTreeSet<&'static str> {
     let text = keyleaf_shaders::source(file).expect("a file");
-    text.lines().filter_map(|line| line.strip_prefix("fn ")).filter_map(|rest| rest.split_once('(')).map(|(name, _)| name).collect()
+    text.lines()
+        .filter_map(|line| line.strip_prefix("fn "))
+        .filter_map(|rest| rest.split_once('('))
+        .map(|(name, _)| name)
+        .collect()
 }
 
 #[test]
@@ -72,17 +94,32 @@ fn every_combination_is_valid() {
 
 #[test]
 fn every_file_is_used_by_some_combination() {
-    let used: BTreeSet<&str> = combinations().iter().flat_map(|files| dependencies(files).expect("the files exist")).collect();
-    let unused: Vec<&str> = FILES.iter().map(|(path, _)| *path).filter(|path| !used.contains(path)).collect();
+    let used: BTreeSet<&str> = combinations()
+        .iter()
+        .flat_map(|files| dependencies(files).expect("the files exist"))
+        .collect();
+    let unused: Vec<&str> = FILES
+        .iter()
+        .map(|(path, _)| *path)
+        .filter(|path| !used.contains(path))
+        .collect();
     assert_eq!(unused, [] as [&str; 0]);
 }
 
 #[test]
 fn a_module_has_the_functions_of_its_files_and_no_others() {
     for files in combinations() {
-        let own: BTreeSet<&str> = dependencies(&files).expect("the files exist").into_iter().flat_map(functions_of).collect();
+        let own: BTreeSet<&str> = dependencies(&files)
+            .expect("the files exist")
+            .into_iter()
+            .flat_map(functions_of)
+            .collect();
         let module = parse(&files);
-        let foreign = module.functions.iter().filter_map(|(_, f)| f.name.as_deref()).find(|name| !own.contains(name));
+        let foreign = module
+            .functions
+            .iter()
+            .filter_map(|(_, f)| f.name.as_deref())
+            .find(|name| !own.contains(name));
         assert_eq!(foreign, None, "{files:?}");
     }
 }
@@ -107,13 +144,28 @@ fn what_a_scene_does_not_name_is_not_in_its_shaders() {
         for (effect, namers) in effects {
             let is_named = namers.iter().any(|word| has(word)) || (effect == "heights" && has("displaced_texture"));
             let found = composed.iter().find(|file| file.contains(effect));
-            assert!(is_named || found.is_none(), "{files:?} did not name {effect}, but has {found:?}");
+            assert!(
+                is_named || found.is_none(),
+                "{files:?} did not name {effect}, but has {found:?}"
+            );
         }
-        let functions: Vec<String> = parse(&files).functions.iter().filter_map(|(_, f)| f.name.clone()).collect();
-        for (marker, namers) in [("noise", &["noise", "terrain.wgsl"][..]), ("height", &["height", "displaced_texture", "terrain"]), ("wire", &["wireframe"]), ("haze", &["haze"])] {
+        let functions: Vec<String> = parse(&files)
+            .functions
+            .iter()
+            .filter_map(|(_, f)| f.name.clone())
+            .collect();
+        for (marker, namers) in [
+            ("noise", &["noise", "terrain.wgsl"][..]),
+            ("height", &["height", "displaced_texture", "terrain"]),
+            ("wire", &["wireframe"]),
+            ("haze", &["haze"]),
+        ] {
             let is_named = namers.iter().any(|word| has(word));
             let found = functions.iter().find(|name| name.contains(marker));
-            assert!(is_named || found.is_none(), "{files:?} did not name {marker}, but has fn {found:?}");
+            assert!(
+                is_named || found.is_none(),
+                "{files:?} did not name {marker}, but has fn {found:?}"
+            );
         }
     }
 }

@@ -8,7 +8,6 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// One thing that is wrong.
 #[derive(Debug, Clone, PartialEq)]
-#[expect(dead_code, reason = "the fields are what a failing test prints")]
 pub enum Finding {
     /// The leaves do not cover the roots once, or break (I1) or (I2).
     Leaves(Violation),
@@ -25,7 +24,12 @@ pub enum Finding {
     /// Entries of the table that are neither empty nor tombstones.
     Entries { live: usize, leaves: usize },
     /// Counters that cannot be.
-    Counters { lost: u32, leaves: u32, capacity: u32, entries_used: u32 },
+    Counters {
+        lost: u32,
+        leaves: u32,
+        capacity: u32,
+        entries_used: u32,
+    },
     /// A slot is drawn twice, or is hidden or free.
     Drawn { slot: u32 },
 }
@@ -36,8 +40,14 @@ const TOMBSTONE: u32 = SLOT_MASK;
 /// Everything that is wrong, nothing after any pass.
 pub fn findings(topology: &Topology, snapshot: &Snapshot) -> Vec<Finding> {
     let leaves: Vec<Place> = snapshot.leaves.iter().map(Leaf::place).collect();
-    let mut found: Vec<Finding> = violations(topology, leaves.iter().copied()).into_iter().map(Finding::Leaves).collect();
-    if found.iter().any(|f| matches!(f, Finding::Leaves(Violation::NotANode(_)))) {
+    let mut found: Vec<Finding> = violations(topology, leaves.iter().copied())
+        .into_iter()
+        .map(Finding::Leaves)
+        .collect();
+    if found
+        .iter()
+        .any(|f| matches!(f, Finding::Leaves(Violation::NotANode(_))))
+    {
         return found; // has no neighbours
     }
     let drawn = (0..leaves.len()).filter_map(|slot| leaves[slot].drawn(snapshot.is_pair(slot)));
@@ -60,7 +70,12 @@ pub fn findings(topology: &Topology, snapshot: &Snapshot) -> Vec<Finding> {
     let (control, capacity) = (&snapshot.control, snapshot.statistics.capacity);
     if control.lost > 0 || control.leaves > capacity || control.entries_used as usize > snapshot.table.len() {
         let (lost, leaves, entries_used) = (control.lost, control.leaves, control.entries_used);
-        found.push(Finding::Counters { lost, leaves, capacity, entries_used });
+        found.push(Finding::Counters {
+            lost,
+            leaves,
+            capacity,
+            entries_used,
+        });
     }
     found
 }
@@ -75,7 +90,9 @@ fn table_findings(snapshot: &Snapshot, leaves: &[Place]) -> Vec<Finding> {
         let reached = loop {
             match snapshot.table[entry] {
                 0 => break false,
-                word if word == (hash & !SLOT_MASK) | (slot as u32 + 1) => break entry == snapshot.leaves[slot].entry as usize,
+                word if word == (hash & !SLOT_MASK) | (slot as u32 + 1) => {
+                    break entry == snapshot.leaves[slot].entry as usize;
+                }
                 _ => entry = (entry + 1) & mask,
             }
         };
@@ -83,9 +100,16 @@ fn table_findings(snapshot: &Snapshot, leaves: &[Place]) -> Vec<Finding> {
             found.push(Finding::Unreachable(*place));
         }
     }
-    let live = snapshot.table.iter().filter(|word| **word != 0 && **word & SLOT_MASK != TOMBSTONE).count();
+    let live = snapshot
+        .table
+        .iter()
+        .filter(|word| **word != 0 && **word & SLOT_MASK != TOMBSTONE)
+        .count();
     if live != leaves.len() {
-        found.push(Finding::Entries { live, leaves: leaves.len() });
+        found.push(Finding::Entries {
+            live,
+            leaves: leaves.len(),
+        });
     }
     found
 }
@@ -117,20 +141,33 @@ fn drawn_findings(snapshot: &Snapshot, leaves: &[Place]) -> Vec<Finding> {
 
 /// The slots that have a triangle: all but the odd halves of pairs.
 pub fn drawn_slots(snapshot: &Snapshot) -> Vec<u32> {
-    let is_drawn = |slot: &u32| snapshot.leaves[*slot as usize].place().drawn(snapshot.is_pair(*slot as usize)).is_some();
+    let is_drawn = |slot: &u32| {
+        snapshot.leaves[*slot as usize]
+            .place()
+            .drawn(snapshot.is_pair(*slot as usize))
+            .is_some()
+    };
     (0..snapshot.leaves.len() as u32).filter(is_drawn).collect()
 }
 
 /// The CPU twin in the state that the GPU published.
 pub fn forest<'t>(topology: &'t Topology, snapshot: &Snapshot) -> Forest<'t> {
-    let states: BTreeMap<Place, u32> = snapshot.leaves.iter().map(Leaf::place).zip(snapshot.states.iter().copied()).collect();
+    let states: BTreeMap<Place, u32> = snapshot
+        .leaves
+        .iter()
+        .map(Leaf::place)
+        .zip(snapshot.states.iter().copied())
+        .collect();
     let mut forest = Forest::with_leaves(topology, 31, states.keys().copied());
     for (place, published) in &mut forest.leaves {
         // Child 0 speaks for its siblings; each of them says for itself that it has been there for a pass.
         let leader = place.parent().and_then(|parent| states.get(&parent.child(0)));
         let says_merge = leader.is_some_and(|word| word & state::MERGE != 0);
         let word = states[place];
-        *published = Published { wish: state::wish(word), merge: says_merge && word & state::MATURE != 0 };
+        *published = Published {
+            wish: state::wish(word),
+            merge: says_merge && word & state::MATURE != 0,
+        };
     }
     forest
 }

@@ -13,35 +13,70 @@ pub fn flat(mesh: &PolygonMesh) -> Arc<dyn Surface> {
 /// Smooth hills: a function of the place on the map, whatever the number of samples.
 pub fn hills(width: u32, height: u32) -> HeightMap {
     let sample = |k: u32| {
-        let (x, y) = (f64::from(k % width) / f64::from(width - 1), f64::from(k / width) / f64::from(height - 1));
-        (60.0 * (7.0 * x).sin() * (5.0 * y).cos() + 25.0 * (19.0 * x + 8.0 * y).sin() + 8.0 * (43.0 * y - 17.0 * x).cos()) as f32
+        let (x, y) = (
+            f64::from(k % width) / f64::from(width - 1),
+            f64::from(k / width) / f64::from(height - 1),
+        );
+        (60.0 * (7.0 * x).sin() * (5.0 * y).cos()
+            + 25.0 * (19.0 * x + 8.0 * y).sin()
+            + 8.0 * (43.0 * y - 17.0 * x).cos()) as f32
     };
     HeightMap::new(width, height, (0..width * height).map(sample).collect()).expect("a map")
 }
 
 /// Hills over a kilometre, or so.
 pub fn height_field(side: u32, interpolation: Interpolation) -> Arc<dyn Surface> {
-    let settings = HeightFieldSettings { extent: DVec2::new(1000.0, 1000.0), scale: 1.0, offset: 100.0, interpolation };
+    let settings = HeightFieldSettings {
+        extent: DVec2::new(1000.0, 1000.0),
+        scale: 1.0,
+        offset: 100.0,
+        interpolation,
+    };
     Arc::new(HeightField::new(hills(side, side), settings).expect("a field"))
 }
 
 pub fn by_noise(mesh: &PolygonMesh) -> Arc<dyn Surface> {
-    let noise = NoiseDisplacement { amplitude: 0.08, frequency: 2.5, octaves: 4, gain: 0.5, seed: 7 };
+    let noise = NoiseDisplacement {
+        amplitude: 0.08,
+        frequency: 2.5,
+        octaves: 4,
+        gain: 0.5,
+        seed: 7,
+    };
     Arc::new(DisplacedNoise::new(mesh, noise).expect("a surface"))
 }
 
 /// Every face has its own part of the texture: all mesh edges are seams.
 pub fn by_texture(mesh: &PolygonMesh) -> Arc<dyn Surface> {
     let mut random = Random(11);
-    let uvs = (0..mesh.faces.corner_count()).map(|_| [random.unit() as f32, random.unit() as f32]).collect();
-    let mesh = PolygonMesh { corners: CornerAttributes { uvs: Some(uvs), ..mesh.corners.clone() }, ..mesh.clone() };
-    let displacement = TextureDisplacement { texels: hills(24, 17), scale: 1e-3, offset: 0.02, repeats: true };
+    let uvs = (0..mesh.faces.corner_count())
+        .map(|_| [random.unit() as f32, random.unit() as f32])
+        .collect();
+    let mesh = PolygonMesh {
+        corners: CornerAttributes {
+            uvs: Some(uvs),
+            ..mesh.corners.clone()
+        },
+        ..mesh.clone()
+    };
+    let displacement = TextureDisplacement {
+        texels: hills(24, 17),
+        scale: 1e-3,
+        offset: 0.02,
+        repeats: true,
+    };
     Arc::new(DisplacedTexture::new(&mesh, displacement).expect("a surface"))
 }
 
 /// Of a few kilometres.
 pub fn terrain() -> Arc<dyn Surface> {
-    let settings = TerrainSettings { extent: 4096.0, height: 300.0, first_level: 2, octaves: 8, ..TerrainSettings::default() };
+    let settings = TerrainSettings {
+        extent: 4096.0,
+        height: 300.0,
+        first_level: 2,
+        octaves: 8,
+        ..TerrainSettings::default()
+    };
     Arc::new(Terrain::new(settings).expect("a terrain"))
 }
 

@@ -18,7 +18,11 @@ fn grid_points(leaf: &Place, is_pair: bool, grid: &BaseGrid, k: u32) -> Vec<Root
     let (unit, step) = (leaf.unit(), leaf.unit() >> k);
     let at = |vertex: &u32| {
         let (i, j) = (vertex & 0xffff, vertex >> 16);
-        if is_pair { leaf.at(unit.wrapping_sub((i + j) * step), (i * step).wrapping_sub(j * step)) } else { leaf.at(i * step, j * step) }
+        if is_pair {
+            leaf.at(unit.wrapping_sub((i + j) * step), (i * step).wrapping_sub(j * step))
+        } else {
+            leaf.at(i * step, j * step)
+        }
     };
     grid.vertices.iter().map(at).collect()
 }
@@ -35,14 +39,23 @@ fn draw(world: &World, snapshot: &Snapshot) -> Drawn {
     let grid = BaseGrid::new(k);
     let slots = drawn_slots(snapshot);
     let emitted = world.emit(&slots);
-    let mut drawn = Drawn { vertices: Vec::new(), triangles: Vec::new() };
+    let mut drawn = Drawn {
+        vertices: Vec::new(),
+        triangles: Vec::new(),
+    };
     for slot in slots.iter().map(|slot| *slot as usize) {
         let first = drawn.vertices.len();
         for at in grid_points(&snapshot.leaves[slot].place(), snapshot.is_pair(slot), &grid, k) {
             let i = drawn.vertices.len();
-            drawn.vertices.push((Site::of(topology, at), at, emitted.positions[i], emitted.normals[i]));
+            drawn
+                .vertices
+                .push((Site::of(topology, at), at, emitted.positions[i], emitted.normals[i]));
         }
-        drawn.triangles.extend(grid.indices.chunks(3).map(|t| [t[0], t[1], t[2]].map(|v| first + usize::from(v))));
+        drawn.triangles.extend(
+            grid.indices
+                .chunks(3)
+                .map(|t| [t[0], t[1], t[2]].map(|v| first + usize::from(v))),
+        );
     }
     assert_eq!(drawn.vertices.len(), emitted.positions.len());
     drawn
@@ -56,10 +69,22 @@ fn bits(position: [f32; 3]) -> [u32; 3] {
 fn check(topology: &Topology, drawn: &Drawn, case: &str) {
     let mut position_of: HashMap<Site, [u32; 3]> = HashMap::new();
     for (site, at, position, normal) in &drawn.vertices {
-        assert!(position.iter().all(|x| x.is_finite() && x.to_bits() != (-0.0f32).to_bits()), "{case}: {position:?} at {at:?}");
-        assert!((Vec3::from(*normal).length() - 1.0).abs() < 1e-5, "{case}: normal {normal:?} at {at:?}");
+        assert!(
+            position
+                .iter()
+                .all(|x| x.is_finite() && x.to_bits() != (-0.0f32).to_bits()),
+            "{case}: {position:?} at {at:?}"
+        );
+        assert!(
+            (Vec3::from(*normal).length() - 1.0).abs() < 1e-5,
+            "{case}: normal {normal:?} at {at:?}"
+        );
         let known = *position_of.entry(*site).or_insert(bits(*position));
-        assert_eq!(known, bits(*position), "{case}: {site:?} has two positions, the second at {at:?}");
+        assert_eq!(
+            known,
+            bits(*position),
+            "{case}: {site:?} has two positions, the second at {at:?}"
+        );
     }
     let mut edges: HashMap<[Site; 2], u32> = HashMap::new();
     let on_boundary = |v: usize| {
@@ -86,13 +111,24 @@ fn check(topology: &Topology, drawn: &Drawn, case: &str) {
         edges.insert([b, a], 1);
     }
     for [a, b] in edges.keys() {
-        assert!(edges.contains_key(&[*b, *a]), "{case}: no triangle on the other side of {a:?} {b:?}");
+        assert!(
+            edges.contains_key(&[*b, *a]),
+            "{case}: no triangle on the other side of {a:?} {b:?}"
+        );
     }
 }
 
 /// Frames of jumps, unsettled ones too, each checked.
 fn jumps(name: &str, surface: &Arc<dyn Surface>, k: u32, pixels: f32, seed: u64) -> usize {
-    let mut world = World::new(surface, Settings { base_grid: k, max_level: 31 - k, capacity: 3000, ..settings(Metric::Edge { pixels }) });
+    let mut world = World::new(
+        surface,
+        Settings {
+            base_grid: k,
+            max_level: 31 - k,
+            capacity: 3000,
+            ..settings(Metric::Edge { pixels })
+        },
+    );
     let mut random = Random(seed);
     let mut triangles = 0;
     for jump in 0..3 {
@@ -123,7 +159,11 @@ fn every_surface_is_drawn_without_a_gap_bit_by_bit_on_every_base_grid() {
 fn random_meshes_are_drawn_without_a_gap_flat_and_displaced() {
     for seed in 0..8 {
         let mesh = meshes::random(seed);
-        let displaced = [surfaces::flat(&mesh), surfaces::by_noise(&mesh), surfaces::by_texture(&mesh)];
+        let displaced = [
+            surfaces::flat(&mesh),
+            surfaces::by_noise(&mesh),
+            surfaces::by_texture(&mesh),
+        ];
         for surface in displaced {
             jumps(&format!("random mesh {seed}"), &surface, (seed % 3) as u32, 50.0, seed);
         }
@@ -144,7 +184,11 @@ fn models() -> Option<Vec<PathBuf>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/data/subd");
     let mut all = Vec::new();
     for folder in [folder.clone(), folder.join("osd_shapes")] {
-        all.extend(std::fs::read_dir(folder).ok()?.filter_map(|entry| entry.ok().map(|e| e.path())));
+        all.extend(
+            std::fs::read_dir(folder)
+                .ok()?
+                .filter_map(|entry| entry.ok().map(|e| e.path())),
+        );
     }
     all.retain(|path| path.extension().is_some_and(|e| e == "obj"));
     all.sort();
@@ -159,8 +203,11 @@ fn models_are_drawn_without_a_gap() {
     };
     let mut drawn = Vec::new();
     for path in &models {
-        let name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-        let model = match keyleaf_scene::read_model(path) {
+        let name = path
+            .file_name()
+            .map(|n| n.to_string_lossy().into_owned())
+            .unwrap_or_default();
+        let model = match keyleaf_scene::read_model(path, &Default::default()) {
             Ok(model) => model,
             Err(error) => {
                 println!("{name} is no surface: {error}");
@@ -172,7 +219,12 @@ fn models_are_drawn_without_a_gap() {
         }
         let surface: Arc<dyn Surface> = Arc::new(Mesh::new(&model.mesh).expect("read_model checks"));
         let roots = surface.topology().half_edge_count();
-        let settings = Settings { base_grid: 1, max_level: 30, capacity: roots + 2000, ..settings(Metric::Edge { pixels: 30.0 }) };
+        let settings = Settings {
+            base_grid: 1,
+            max_level: 30,
+            capacity: roots + 2000,
+            ..settings(Metric::Edge { pixels: 30.0 })
+        };
         let mut world = World::new(&surface, settings);
         let mut random = Random(roots.into());
         for passes in [7, 2] {

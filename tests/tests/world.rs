@@ -15,7 +15,13 @@ pub const EDGE: Metric = Metric::Edge { pixels: 24.0 };
 
 /// Settings for small tests: every leaf a triangle, one pass a frame.
 pub fn settings(metric: Metric) -> Settings {
-    Settings { metric, base_grid: 0, capacity: 20_000, max_level: 31, ..Settings::default() }
+    Settings {
+        metric,
+        base_grid: 0,
+        capacity: 20_000,
+        max_level: 31,
+        ..Settings::default()
+    }
 }
 
 pub struct World {
@@ -32,12 +38,17 @@ impl World {
         let passes = passes(Quadtree::kind(surface.as_ref(), &settings));
         let (device, queue) = (&gpu().device, &gpu().queue);
         let quadtree = Quadtree::new(device, queue, passes, Arc::clone(surface), world_from_object, settings);
-        Self { surface: Arc::clone(surface), quadtree: quadtree.expect("the settings are in range") }
+        Self {
+            surface: Arc::clone(surface),
+            quadtree: quadtree.expect("the settings are in range"),
+        }
     }
 
     /// Starts again from these leaves.
     pub fn set_leaves(&mut self, leaves: &[Place]) {
-        self.quadtree.set_leaves(&gpu().queue, leaves).expect("the leaves cover the roots");
+        self.quadtree
+            .set_leaves(&gpu().queue, leaves)
+            .expect("the leaves cover the roots");
     }
 
     /// One frame.
@@ -48,7 +59,9 @@ impl World {
     }
 
     pub fn snapshot(&self) -> Snapshot {
-        self.quadtree.read_back(&gpu().device, &gpu().queue).expect("the device works")
+        self.quadtree
+            .read_back(&gpu().device, &gpu().queue)
+            .expect("the device works")
     }
 
     /// One frame, and what it left.
@@ -65,12 +78,16 @@ impl World {
 
     pub fn emit(&self, slots: &[u32]) -> Emitted {
         let kind = Quadtree::kind(self.surface.as_ref(), self.quadtree.settings());
-        inspector(kind).emit(&gpu().device, &gpu().queue, &self.quadtree, slots).expect("the device works")
+        inspector(kind)
+            .emit(&gpu().device, &gpu().queue, &self.quadtree, slots)
+            .expect("the device works")
     }
 
     pub fn evaluate(&self, points: &[RootPoint]) -> Vec<GpuFrame> {
         let kind = Quadtree::kind(self.surface.as_ref(), self.quadtree.settings());
-        inspector(kind).evaluate(&gpu().device, &gpu().queue, &self.quadtree, points).expect("the device works")
+        inspector(kind)
+            .evaluate(&gpu().device, &gpu().queue, &self.quadtree, points)
+            .expect("the device works")
     }
 
     /// The metric over the threshold of a node in f64, with the scale and planes that the GPU got. Twin of `wish` in `update.wgsl`.
@@ -87,7 +104,11 @@ impl World {
             Metric::Distance { .. } => std::f64::consts::SQRT_2 * (-f64::from(node.level)).exp2(),
         };
         let centre = bound.centre - to_world.inverse().transform_point3(view.eye);
-        let distance = if frame.orthographic == 1 { 1.0 } else { (to_world.matrix3 * centre).length().max(frame.near.into()) };
+        let distance = if frame.orthographic == 1 {
+            1.0
+        } else {
+            (to_world.matrix3 * centre).length().max(frame.near.into())
+        };
         let is_outside = frame.planes[6..].iter().any(|plane| {
             let plane = plane.as_dvec4();
             plane.truncate().dot(centre) + plane.w < -bound.guard

@@ -143,17 +143,28 @@ pub enum ImportError {
 impl ImportError {
     /// A [`ImportError::Malformed`] without ceremony.
     pub(crate) fn malformed(file: &Path, place: FilePlace, reason: impl Into<String>) -> Self {
-        Self::Malformed { file: file.to_path_buf(), place, reason: reason.into() }
+        Self::Malformed {
+            file: file.to_path_buf(),
+            place,
+            reason: reason.into(),
+        }
     }
 
     /// An [`ImportError::Unsupported`] without ceremony.
     pub(crate) fn unsupported(file: &Path, place: FilePlace, reason: impl Into<String>) -> Self {
-        Self::Unsupported { file: file.to_path_buf(), place, reason: reason.into() }
+        Self::Unsupported {
+            file: file.to_path_buf(),
+            place,
+            reason: reason.into(),
+        }
     }
 
     /// An [`ImportError::Empty`] without ceremony.
     pub(crate) fn empty(file: &Path, reason: impl Into<String>) -> Self {
-        Self::Empty { file: file.to_path_buf(), reason: reason.into() }
+        Self::Empty {
+            file: file.to_path_buf(),
+            reason: reason.into(),
+        }
     }
 
     /// The file that was refused.
@@ -173,10 +184,15 @@ impl ImportError {
 
 /// Reads a whole file; a folder or a missing file is an [`ImportError::Read`].
 pub(crate) fn read_file(file: &Path) -> Result<Vec<u8>, ImportError> {
-    std::fs::read(file).map_err(|source| ImportError::Read { file: file.to_path_buf(), source })
+    std::fs::read(file).map_err(|source| ImportError::Read {
+        file: file.to_path_buf(),
+        source,
+    })
 }
 
 /// The ending of a file name in lower case, without the dot; empty if there is none.
 pub(crate) fn extension(file: &Path) -> String {
-    file.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default()
+    file.extension()
+        .map(|e| e.to_string_lossy().to_lowercase())
+        .unwrap_or_default()
 }

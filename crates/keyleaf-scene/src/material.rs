@@ -16,6 +16,9 @@ pub struct SurfaceMaterial {
 impl Default for SurfaceMaterial {
     /// White, without a picture.
     fn default() -> Self {
-        Self { base_colour: [1.0; 4], texture: None }
+        Self {
+            base_colour: [1.0; 4],
+            texture: None,
+        }
     }
 }

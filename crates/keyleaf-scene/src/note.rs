@@ -25,13 +25,21 @@ pub struct Note {
 
 impl Note {
     /// A note of severity [`Severity::Note`].
-    pub fn note(file: &Path, text: impl Into<String>) -> Self {
-        Self { severity: Severity::Note, file: file.to_path_buf(), text: text.into() }
+    pub fn remark(file: &Path, text: impl Into<String>) -> Self {
+        Self {
+            severity: Severity::Note,
+            file: file.to_path_buf(),
+            text: text.into(),
+        }
     }
 
     /// A note of severity [`Severity::Warning`].
     pub fn warning(file: &Path, text: impl Into<String>) -> Self {
-        Self { severity: Severity::Warning, file: file.to_path_buf(), text: text.into() }
+        Self {
+            severity: Severity::Warning,
+            file: file.to_path_buf(),
+            text: text.into(),
+        }
     }
 }
 

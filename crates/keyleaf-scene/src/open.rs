@@ -13,8 +13,8 @@ use crate::material::SurfaceMaterial;
 use crate::model::is_model;
 use crate::note::Note;
 use crate::scene::{
-    CameraPath, Colouring, HeightFieldSource, Material, NamedCamera, Problem, Scene, SceneError,
-    Settings, Shape, Source, SurfaceEntry, reference,
+    CameraPath, Colouring, HeightFieldSource, Material, NamedCamera, Problem, Scene, SceneError, Settings, Shape,
+    Source, SurfaceEntry, reference,
 };
 use crate::surfaces::{self, Made};
 use crate::view::Extent;
@@ -69,7 +69,12 @@ pub struct OpenedSurface {
 impl std::fmt::Debug for OpenedSurface {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let roots = self.surface.topology().half_edge_count();
-        write!(f, "OpenedSurface({}, {}, {roots} roots)", self.name, self.surface.shader())
+        write!(
+            f,
+            "OpenedSurface({}, {}, {roots} roots)",
+            self.name,
+            self.surface.shader()
+        )
     }
 }
 
@@ -86,14 +91,17 @@ pub enum OpenError {
 }
 
 impl OpenedScene {
-    /// How many roots the surfaces have together: the least capacity.
+    /// How many roots the surfaces have together: the fewest leaves.
     pub fn root_count(&self) -> u64 {
         root_count(&self.surfaces)
     }
 
     /// A camera by its name, or the first one; `None` if there is no such name.
     pub fn camera(&self, name: Option<&str>) -> Option<&NamedCamera> {
-        self.scene.cameras.iter().find(|c| name.is_none_or(|name| c.name == name))
+        self.scene
+            .cameras
+            .iter()
+            .find(|c| name.is_none_or(|name| c.name == name))
     }
 
     /// A path by its name, or the first one; `None` if there is no such name.
@@ -103,7 +111,10 @@ impl OpenedScene {
 }
 
 fn root_count(surfaces: &[OpenedSurface]) -> u64 {
-    surfaces.iter().map(|s| u64::from(s.surface.topology().half_edge_count())).sum()
+    surfaces
+        .iter()
+        .map(|s| u64::from(s.surface.topology().half_edge_count()))
+        .sum()
 }
 
 /// Opens a scene file, a model or a height map; the ending of its name tells which.
@@ -118,8 +129,10 @@ fn root_count(surfaces: &[OpenedSurface]) -> u64 {
 /// ```
 pub fn open(file: &Path, options: &OpenOptions) -> Result<OpenedScene, OpenError> {
     if extension(file) == "ron" {
-        let text = std::fs::read_to_string(file)
-            .map_err(|source| SceneError::Read { file: file.to_path_buf(), source })?;
+        let text = std::fs::read_to_string(file).map_err(|source| SceneError::Read {
+            file: file.to_path_buf(),
+            source,
+        })?;
         let scene = Scene::from_ron(&text, file)?;
         return Ok(load(file, &text, scene)?);
     }
@@ -160,14 +173,30 @@ fn load(file: &Path, text: &str, mut scene: Scene) -> Result<OpenedScene, SceneE
     if scene.paths.is_empty() {
         scene.paths.push(extent.path());
     }
-    let surfaces: Vec<OpenedSurface> =
-        scene.surfaces.iter().zip(made).map(|(entry, made)| finish(&scene, entry, made)).collect();
-    let (capacity, roots) = (u64::from(scene.settings.capacity), root_count(&surfaces));
-    if capacity < roots {
-        let problem = format!("{capacity} leaves are too few: the surfaces have {roots} roots, which is the least");
+    let surfaces: Vec<OpenedSurface> = scene
+        .surfaces
+        .iter()
+        .zip(made)
+        .map(|(entry, made)| finish(&scene, entry, made))
+        .collect();
+    let capacity = scene.settings.capacity;
+    if let Some(short) = surfaces
+        .iter()
+        .find(|s| s.surface.topology().half_edge_count() > capacity)
+    {
+        let roots = short.surface.topology().half_edge_count();
+        let problem = format!(
+            "{capacity} leaves are too few: the surface {:?} has {roots} roots, which is the least",
+            short.name
+        );
         return Err(Problem::new("settings.capacity", problem).at(file, text));
     }
-    Ok(OpenedScene { file: file.to_path_buf(), scene, surfaces, notes })
+    Ok(OpenedScene {
+        file: file.to_path_buf(),
+        scene,
+        surfaces,
+        notes,
+    })
 }
 
 fn finish(scene: &Scene, entry: &SurfaceEntry, made: Made) -> OpenedSurface {
@@ -187,10 +216,21 @@ fn finish(scene: &Scene, entry: &SurfaceEntry, made: Made) -> OpenedSurface {
 fn extent(scene: &Scene, made: &[Made]) -> Extent {
     let is_ground = made.iter().any(|m| m.is_ground);
     let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    for (entry, made) in scene.surfaces.iter().zip(made).filter(|(_, m)| m.is_ground == is_ground) {
+    for (entry, made) in scene
+        .surfaces
+        .iter()
+        .zip(made)
+        .filter(|(_, m)| m.is_ground == is_ground)
+    {
         let matrix = entry.transform.matrix();
         for corner in 0..8 {
-            let pick = |axis: usize| if corner >> axis & 1 == 0 { made.shown.0 } else { made.shown.1 };
+            let pick = |axis: usize| {
+                if corner >> axis & 1 == 0 {
+                    made.shown.0
+                } else {
+                    made.shown.1
+                }
+            };
             let point = matrix.transform_point3(DVec3::new(pick(0).x, pick(1).y, pick(2).z));
             low = low.min(point);
             high = high.max(point);
@@ -203,7 +243,10 @@ fn extent(scene: &Scene, made: &[Made]) -> Extent {
 const LEAVES_PER_ROOT: u64 = 4;
 
 fn open_directly(file: &Path, options: &OpenOptions) -> Result<OpenedScene, OpenError> {
-    let name = file.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+    let name = file
+        .file_name()
+        .map(|n| n.to_string_lossy().into_owned())
+        .unwrap_or_default();
     let is_map = is_height_map(file);
     let source = if is_map {
         Source::HeightField(HeightFieldSource {
@@ -214,13 +257,20 @@ fn open_directly(file: &Path, options: &OpenOptions) -> Result<OpenedScene, Open
         Source::Mesh(name)
     };
     let stem = file.file_stem().map(|s| s.to_string_lossy().into_owned());
-    let colouring = if is_map { Colouring::Terrain(Default::default()) } else { Colouring::Plain };
+    let colouring = if is_map {
+        Colouring::Terrain(Default::default())
+    } else {
+        Colouring::Plain
+    };
     let mut entry = SurfaceEntry {
         name: stem.filter(|s| !s.trim().is_empty()).unwrap_or("surface".into()),
         source,
         surface: Shape::Flat,
         transform: Default::default(),
-        material: Material { colouring, ..Material::default() },
+        material: Material {
+            colouring,
+            ..Material::default()
+        },
         settings: Default::default(),
     };
     let folder = file.parent().unwrap_or(Path::new(""));
@@ -245,7 +295,18 @@ fn open_directly(file: &Path, options: &OpenOptions) -> Result<OpenedScene, Open
     let extent = extent(&scene, &made);
     scene.cameras.push(extent.camera());
     scene.paths.push(extent.path());
-    let surfaces =
-        made.into_iter().map(|made| finish(&scene, &scene.surfaces[0], made)).collect();
-    Ok(OpenedScene { file: file.to_path_buf(), scene, surfaces, notes })
+    let surfaces = made
+        .into_iter()
+        .map(|made| finish(&scene, &scene.surfaces[0], made))
+        .collect();
+    Ok(OpenedScene {
+        file: file.to_path_buf(),
+        scene,
+        surfaces,
+        notes,
+    })
 }
+
+#[cfg(test)]
+#[path = "open_tests.rs"]
+mod tests;

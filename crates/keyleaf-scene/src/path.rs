@@ -75,7 +75,11 @@ impl CameraPath {
     fn tangent(&self, at: usize, of: fn(&PathKey) -> DVec3) -> DVec3 {
         let key = &self.keys[at];
         // What turns in place has a direction of its own: the point looked at has no velocity there.
-        let before = if key.cut || at == 0 { None } else { self.keys.get(at - 1) };
+        let before = if key.cut || at == 0 {
+            None
+        } else {
+            self.keys.get(at - 1)
+        };
         let before = before.filter(|k| turn_in_place(k, key, 0.0).is_none());
         let after = self.keys.get(at + 1).filter(|next| !next.cut);
         let after = after.filter(|k| turn_in_place(key, k, 0.0).is_none());
@@ -93,12 +97,18 @@ impl CameraPath {
         let own = (of(key), key.time);
         let (from, to) = (before.unwrap_or(own), after.unwrap_or(own));
         let length = to.1 - from.1;
-        if length > 0.0 { (to.0 - from.0) / length } else { DVec3::ZERO }
+        if length > 0.0 {
+            (to.0 - from.0) / length
+        } else {
+            DVec3::ZERO
+        }
     }
 
     /// Whether the path is looped and closed, so that it runs smoothly from its end to its start.
     fn seam(&self) -> Option<()> {
-        let [first, second, .., before, last] = self.keys.as_slice() else { return None };
+        let [first, second, .., before, last] = self.keys.as_slice() else {
+            return None;
+        };
         let same = first.eye == last.eye && first.look_at == last.look_at;
         (self.looped && same && !second.cut && !last.cut && before.time < last.time).then_some(())
     }
@@ -121,7 +131,12 @@ impl CameraPath {
             let jumped = |key: &&PathKey| key.cut && key.time <= now && key.time > time(index.max(1) - 1);
             let cut = index > 0 && self.keys.iter().find(jumped).is_some();
             let view = self.own_view(now)?;
-            Some(Frame { index, time: now, view, cut })
+            Some(Frame {
+                index,
+                time: now,
+                view,
+                cut,
+            })
         })
     }
 
@@ -145,10 +160,7 @@ fn look_at(key: &PathKey) -> DVec3 {
 /// Cubic Hermite interpolation; `m` are derivatives in s.
 fn hermite(p0: DVec3, m0: DVec3, p1: DVec3, m1: DVec3, s: f64) -> DVec3 {
     let (s2, s3) = (s * s, s * s * s);
-    p0 * (2.0 * s3 - 3.0 * s2 + 1.0)
-        + m0 * (s3 - 2.0 * s2 + s)
-        + p1 * (3.0 * s2 - 2.0 * s3)
-        + m1 * (s3 - s2)
+    p0 * (2.0 * s3 - 3.0 * s2 + 1.0) + m0 * (s3 - 2.0 * s2 + s) + p1 * (3.0 * s2 - 2.0 * s3) + m1 * (s3 - s2)
 }
 
 /// From the eye to the point looked at, if the camera turns by more than a right angle and hardly moves meanwhile.
@@ -177,16 +189,32 @@ mod tests {
     use super::*;
 
     fn key(time: f64, eye: [f64; 3], look_at: [f64; 3]) -> PathKey {
-        PathKey { time, eye, look_at, fov: 50.0, ease: Ease::Linear, cut: false }
+        PathKey {
+            time,
+            eye,
+            look_at,
+            fov: 50.0,
+            ease: Ease::Linear,
+            cut: false,
+        }
     }
 
     fn path(keys: Vec<PathKey>) -> CameraPath {
-        CameraPath { name: "p".into(), keys, looped: false, near: None }
+        CameraPath {
+            name: "p".into(),
+            keys,
+            looped: false,
+            near: None,
+        }
     }
 
     fn square() -> CameraPath {
         let corner = |i: usize| [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]][i % 4];
-        path((0..5).map(|i| key(i as f64 * 0.5, corner(i), [0.0, -1.0, 0.0])).collect())
+        path(
+            (0..5)
+                .map(|i| key(i as f64 * 0.5, corner(i), [0.0, -1.0, 0.0]))
+                .collect(),
+        )
     }
 
     #[test]
@@ -237,7 +265,10 @@ mod tests {
 
     #[test]
     fn smooth_ease_comes_to_rest() {
-        let mut path = path(vec![key(0.0, [0.0; 3], [0.0, 0.0, -9.0]), key(2.0, [4.0, 0.0, 0.0], [4.0, 0.0, -9.0])]);
+        let mut path = path(vec![
+            key(0.0, [0.0; 3], [0.0, 0.0, -9.0]),
+            key(2.0, [4.0, 0.0, 0.0], [4.0, 0.0, -9.0]),
+        ]);
         let at = |path: &CameraPath, t: f64| path.view_at(t).unwrap().eye.x;
         assert!((at(&path, 0.5) - 1.0).abs() < 1e-12);
         path.keys[0].ease = Ease::Smooth;
@@ -259,7 +290,10 @@ mod tests {
 
     #[test]
     fn fast_turns_never_look_through_the_eye() {
-        let turn = path(vec![key(0.0, [0.0; 3], [0.0, 0.0, -5.0]), key(0.4, [0.0; 3], [0.0, 0.0, 7.0])]);
+        let turn = path(vec![
+            key(0.0, [0.0; 3], [0.0, 0.0, -5.0]),
+            key(0.4, [0.0; 3], [0.0, 0.0, 7.0]),
+        ]);
         for frame in turn.frames(0.01) {
             let distance = frame.view.eye.distance(frame.view.look_at);
             assert!((4.99..7.01).contains(&distance));

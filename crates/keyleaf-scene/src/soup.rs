@@ -4,8 +4,8 @@ use std::path::Path;
 
 use glam::DVec3;
 
-use crate::error::{FilePlace, ImportError};
 use crate::MAX_COORDINATE;
+use crate::error::{FilePlace, ImportError};
 
 /// Polygons with attributes at their corners, as a file states them: nothing is welded, nothing is checked but that
 /// coordinates are finite and indices are in range.
@@ -59,11 +59,15 @@ pub(crate) fn check_finite(
     what: &'static str,
     values: &[f64],
 ) -> Result<(), ImportError> {
-    match values.iter().find(|v| !(v.abs() <= MAX_COORDINATE)) {
+    let is_small = |value: &&f64| value.abs() <= MAX_COORDINATE;
+    match values.iter().find(|value| !is_small(value)) {
         None => Ok(()),
-        Some(&value) => {
-            Err(ImportError::NotFinite { file: file.to_path_buf(), place: place(), what, value })
-        }
+        Some(&value) => Err(ImportError::NotFinite {
+            file: file.to_path_buf(),
+            place: place(),
+            what,
+            value,
+        }),
     }
 }
 
@@ -74,5 +78,9 @@ pub(crate) fn unit(normal: DVec3) -> [f32; 3] {
 
 /// Linear value of an sRGB-encoded one, both 0..1 (IEC 61966-2-1).
 pub(crate) fn linear_from_srgb(value: f32) -> f32 {
-    if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+    if value <= 0.040_45 {
+        value / 12.92
+    } else {
+        ((value + 0.055) / 1.055).powf(2.4)
+    }
 }

@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use keyleaf_surface::{
-    CornerAttributes, DisplacedNoise, DisplacedTexture, HeightField, HeightFieldSettings, Mesh,
-    NoiseDisplacement, PolygonMesh, Surface, Terrain, TerrainSettings, TextureDisplacement,
+    CornerAttributes, DisplacedNoise, DisplacedTexture, HeightField, HeightFieldSettings, Mesh, NoiseDisplacement,
+    PolygonMesh, Surface, Terrain, TerrainSettings, TextureDisplacement,
 };
 
 use crate::error::{FilePlace, ImportError};
@@ -16,8 +16,8 @@ use crate::material::SurfaceMaterial;
 use crate::model::{Model, ModelOptions, read_model};
 use crate::note::Note;
 use crate::scene::{
-    Colouring, DisplacementHeight, HeightFieldSource, Interpolation, Material, Shape, Source,
-    SurfaceEntry, TerrainSource,
+    Colouring, DisplacementHeight, HeightFieldSource, Interpolation, Material, Shape, Source, SurfaceEntry,
+    TerrainSource,
 };
 use crate::texture::ColourTexture;
 
@@ -51,7 +51,10 @@ pub(crate) struct Failure {
 
 impl Failure {
     fn of<E: Error + Send + Sync + 'static>(field: &'static str) -> impl Fn(E) -> Self {
-        move |error| Self { field, source: Box::new(error) }
+        move |error| Self {
+            field,
+            source: Box::new(error),
+        }
     }
 
     /// For a model or a map that was opened directly.
@@ -64,11 +67,7 @@ impl Failure {
 }
 
 /// Makes the surface of an entry; paths are relative to `folder`.
-pub(crate) fn make(
-    folder: &Path,
-    entry: &SurfaceEntry,
-    notes: &mut Vec<Note>,
-) -> Result<Made, Failure> {
+pub(crate) fn make(folder: &Path, entry: &SurfaceEntry, notes: &mut Vec<Note>) -> Result<Made, Failure> {
     let mut made = match &entry.source {
         Source::Mesh(path) => make_mesh(folder, &folder.join(path), entry, notes)?,
         Source::HeightField(source) => make_height_field(folder, source, notes)?,
@@ -78,28 +77,36 @@ pub(crate) fn make(
     Ok(made)
 }
 
-fn make_mesh(
-    folder: &Path,
-    file: &Path,
-    entry: &SurfaceEntry,
-    notes: &mut Vec<Note>,
-) -> Result<Made, Failure> {
-    let by_texture = matches!(&entry.surface, Shape::Displaced(d) if matches!(d.height, DisplacementHeight::Texture(_)));
-    let options = ModelOptions { keep_uvs: by_texture || entry.material.texture.is_some() };
-    let Model { mesh, material, notes: found } =
-        read_model(file, &options).map_err(Failure::of("source"))?;
+fn make_mesh(folder: &Path, file: &Path, entry: &SurfaceEntry, notes: &mut Vec<Note>) -> Result<Made, Failure> {
+    let by_texture =
+        matches!(&entry.surface, Shape::Displaced(d) if matches!(d.height, DisplacementHeight::Texture(_)));
+    let options = ModelOptions {
+        keep_uvs: by_texture || entry.material.texture.is_some(),
+    };
+    let Model {
+        mesh,
+        material,
+        notes: found,
+    } = read_model(file, &options).map_err(Failure::of("source"))?;
     notes.extend(found);
     let mut files = vec![file.to_path_buf()];
     let surface: Arc<dyn Surface> = match &entry.surface {
         Shape::Flat => Arc::new(Mesh::new(&mesh).map_err(Failure::of("source"))?),
-        Shape::Displaced(displaced) => {
-            displace(folder, &mesh, &displaced.height, &mut files, notes)?
-        }
+        Shape::Displaced(displaced) => displace(folder, &mesh, &displaced.height, &mut files, notes)?,
     };
     let shown = surface.bounding_box();
     let corners = mesh.corners;
     let colouring = Colouring::Plain;
-    Ok(Made { surface, corners, material, colouring, shown, is_ground: false, spacing: None, files })
+    Ok(Made {
+        surface,
+        corners,
+        material,
+        colouring,
+        shown,
+        is_ground: false,
+        spacing: None,
+        files,
+    })
 }
 
 fn displace(
@@ -138,15 +145,16 @@ fn displace(
     }
 }
 
-fn make_height_field(
-    folder: &Path,
-    source: &HeightFieldSource,
-    notes: &mut Vec<Note>,
-) -> Result<Made, Failure> {
+fn make_height_field(folder: &Path, source: &HeightFieldSource, notes: &mut Vec<Note>) -> Result<Made, Failure> {
     let file = folder.join(&source.path);
-    let options = HeightMapOptions { raw_size: source.raw_size, void_value: source.void_value };
+    let options = HeightMapOptions {
+        raw_size: source.raw_size,
+        void_value: source.void_value,
+    };
     let read = read_height_map(&file, &options).map_err(Failure::of("source.path"))?;
-    let spacing = source.spacing.map_or_else(|| read.spacing_or_default(source.scale), DVec2::from);
+    let spacing = source
+        .spacing
+        .map_or_else(|| read.spacing_or_default(source.scale), DVec2::from);
     notes.extend(read.notes);
     let steps = DVec2::new(f64::from(read.map.width()), f64::from(read.map.height())) - DVec2::ONE;
     let settings = HeightFieldSettings {
@@ -237,7 +245,13 @@ fn dress(folder: &Path, material: &Material, made: &mut Made) -> Result<(), Fail
     let is_plain = made.material == SurfaceMaterial::default()
         && made.corners.colours.is_none()
         && made.colouring == Colouring::Plain;
-    let base = material.base_colour.unwrap_or(if is_plain { [GREY; 3] } else { [1.0; 3] });
-    made.material.base_colour.iter_mut().zip(base).for_each(|(own, base)| *own *= base);
+    let base = material
+        .base_colour
+        .unwrap_or(if is_plain { [GREY; 3] } else { [1.0; 3] });
+    made.material
+        .base_colour
+        .iter_mut()
+        .zip(base)
+        .for_each(|(own, base)| *own *= base);
     Ok(())
 }

@@ -33,32 +33,27 @@ impl ColourTexture {
     }
 
     /// Decodes a picture that is part of `file`, at `place`.
-    pub(crate) fn decode(
-        file: &Path,
-        place: &FilePlace,
-        bytes: &[u8],
-    ) -> Result<Self, ImportError> {
+    pub(crate) fn decode(file: &Path, place: &FilePlace, bytes: &[u8]) -> Result<Self, ImportError> {
         let picture = decode(file, place, bytes)?.into_rgba8();
         let (width, height) = picture.dimensions();
         if width == 0 || height == 0 {
             return Err(ImportError::empty(file, "the picture has no pixels"));
         }
         if width > MAX_TEXTURE_SIDE || height > MAX_TEXTURE_SIDE {
-            let reason = format!(
-                "the picture has {width}x{height} pixels; scale it to at most {MAX_TEXTURE_SIDE} a side"
-            );
+            let reason =
+                format!("the picture has {width}x{height} pixels; scale it to at most {MAX_TEXTURE_SIDE} a side");
             return Err(ImportError::unsupported(file, place.clone(), reason));
         }
-        Ok(Self { width, height, rgba: picture.into_raw() })
+        Ok(Self {
+            width,
+            height,
+            rgba: picture.into_raw(),
+        })
     }
 }
 
 /// Decodes a picture whose format its first bytes tell.
-pub(crate) fn decode(
-    file: &Path,
-    place: &FilePlace,
-    bytes: &[u8],
-) -> Result<DynamicImage, ImportError> {
+pub(crate) fn decode(file: &Path, place: &FilePlace, bytes: &[u8]) -> Result<DynamicImage, ImportError> {
     let malformed = |error: image::ImageError| {
         let reason = format!("the picture cannot be decoded: {error}");
         ImportError::malformed(file, place.clone(), reason)

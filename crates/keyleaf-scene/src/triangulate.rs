@@ -12,7 +12,9 @@ const CONVEX_TOLERANCE: f64 = 1e-3;
 
 /// Newell's normal: the vector area of a closed polygon times 2; zero for one without area.
 pub fn newell_normal(points: &[DVec3]) -> DVec3 {
-    let Some(&origin) = points.first() else { return DVec3::ZERO };
+    let Some(&origin) = points.first() else {
+        return DVec3::ZERO;
+    };
     (0..points.len())
         .map(|i| (points[i] - origin).cross(points[(i + 1) % points.len()] - origin))
         .sum()
@@ -22,7 +24,10 @@ pub fn newell_normal(points: &[DVec3]) -> DVec3 {
 /// no area.
 fn flatten(points: &[DVec3]) -> Option<Vec<DVec2>> {
     let centre = points.iter().sum::<DVec3>() / points.len() as f64;
-    let size = points.iter().map(|&p| (p - centre).abs().max_element()).fold(0.0, f64::max);
+    let size = points
+        .iter()
+        .map(|&p| (p - centre).abs().max_element())
+        .fold(0.0, f64::max);
     if !(size > 0.0 && size.is_finite()) {
         return None;
     }
@@ -69,16 +74,11 @@ pub fn is_convex(points: &[DVec3]) -> bool {
 /// `vertices` are the names of the corners: a polygon may pass through one vertex twice, and no triangle with two
 /// equal names comes out. A diagonal between two names for which `taken` is true is avoided where there is a choice,
 /// since it would make an edge with three faces.
-pub fn triangulate(
-    points: &[DVec3],
-    vertices: &[u32],
-    mut taken: impl FnMut(u32, u32) -> bool,
-) -> Vec<[usize; 3]> {
+pub fn triangulate(points: &[DVec3], vertices: &[u32], mut taken: impl FnMut(u32, u32) -> bool) -> Vec<[usize; 3]> {
     let count = points.len().min(vertices.len());
     let mut triangles = Vec::with_capacity(count.saturating_sub(2));
-    let distinct = |[a, b, c]: [usize; 3]| {
-        vertices[a] != vertices[b] && vertices[b] != vertices[c] && vertices[c] != vertices[a]
-    };
+    let distinct =
+        |[a, b, c]: [usize; 3]| vertices[a] != vertices[b] && vertices[b] != vertices[c] && vertices[c] != vertices[a];
     let Some(flat) = flatten(&points[..count]) else {
         triangles.extend((2..count).map(|i| [0, i - 1, i]).filter(|&t| distinct(t)));
         return triangles;
@@ -114,12 +114,7 @@ fn around(rest: &[usize], i: usize) -> [usize; 3] {
 }
 
 /// The best ear whose diagonal is free, else the best ear, else the least bad corner.
-fn best_ear(
-    rest: &[usize],
-    quality: &[f64],
-    vertices: &[u32],
-    taken: &mut impl FnMut(u32, u32) -> bool,
-) -> usize {
+fn best_ear(rest: &[usize], quality: &[f64], vertices: &[u32], taken: &mut impl FnMut(u32, u32) -> bool) -> usize {
     let mut order: Vec<usize> = (0..rest.len()).collect();
     let best = |order: &[usize]| {
         let better = |a: &&usize, b: &&usize| quality[**a].total_cmp(&quality[**b]);
@@ -148,8 +143,10 @@ fn ear(flat: &[DVec2], vertices: &[u32], rest: &[usize], i: usize) -> f64 {
     let triangle = around(rest, i);
     let [a, b, c] = triangle.map(|k| flat[k]);
     let names = triangle.map(|k| vertices[k]);
-    let longest =
-        (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
+    let longest = (b - a)
+        .length_squared()
+        .max((c - b).length_squared())
+        .max((a - c).length_squared());
     let shape = if longest > 0.0 { orient(a, b, c) / longest } else { 0.0 };
     if names[0] == names[2] {
         // Cutting here closes a slit of no area.
@@ -207,8 +204,16 @@ mod tests {
 
     #[test]
     fn concave_polygon_is_covered_once_without_turned_triangles() {
-        let comb =
-            ring(&[[0., 0.], [5., 0.], [5., 3.], [4., 1.], [3., 3.], [2., 1.], [1., 3.], [0., 1.]]);
+        let comb = ring(&[
+            [0., 0.],
+            [5., 0.],
+            [5., 3.],
+            [4., 1.],
+            [3., 3.],
+            [2., 1.],
+            [1., 3.],
+            [0., 1.],
+        ]);
         let triangles = triangulate(&comb, &names(&comb), |_, _| false);
         assert_eq!(triangles.len(), 6);
         for t in &triangles {

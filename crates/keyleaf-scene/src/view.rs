@@ -27,7 +27,12 @@ impl View {
     /// A view with the near plane given, or chosen by the distance to `look_at`.
     pub fn new(eye: DVec3, look_at: DVec3, fov: f64, near: Option<f64>) -> Self {
         let chosen = (NEAR_FRACTION * eye.distance(look_at)).clamp(NEAR_RANGE.0, NEAR_RANGE.1);
-        Self { eye, look_at, fov, near: near.unwrap_or(chosen) }
+        Self {
+            eye,
+            look_at,
+            fov,
+            near: near.unwrap_or(chosen),
+        }
     }
 
     /// Unit vector into the picture; north (-Z) if eye and look_at are the same point.
@@ -40,7 +45,11 @@ impl View {
         let forward = self.direction();
         let side = forward.cross(DVec3::Y);
         // Closer to the vertical than this, the side is rounding.
-        let right = if side.length() < 1e-6 { DVec3::X } else { side.normalize() };
+        let right = if side.length() < 1e-6 {
+            DVec3::X
+        } else {
+            side.normalize()
+        };
         let right = (right - forward * right.dot(forward)).normalize();
         DMat3::from_cols(right, right.cross(forward), -forward)
     }
@@ -88,7 +97,11 @@ impl Extent {
     /// The longer horizontal side.
     fn side(&self) -> f64 {
         let size = self.high - self.low;
-        if size.x.max(size.z) > 0.0 { size.x.max(size.z) } else { 1.0 }
+        if size.x.max(size.z) > 0.0 {
+            size.x.max(size.z)
+        } else {
+            1.0
+        }
     }
 
     /// A point above the ground: fractions of the sides east and north, height over the highest point in sides.

@@ -12,10 +12,10 @@ use glam::DVec3;
 use keyleaf_key::{Topology, TopologyError};
 
 use crate::error::ImportError;
-use keyleaf_surface::{CornerAttributes, Faces, PolygonMesh};
 use crate::note::Note;
 use crate::soup::Soup;
 use crate::triangulate::{is_convex, triangulate};
+use keyleaf_surface::{CornerAttributes, Faces, PolygonMesh};
 
 /// From this many faces on, a mesh gets a warning: three or four leaves a face is the least there can be.
 pub const MANY_FACES: usize = 1_000_000;
@@ -29,11 +29,7 @@ pub(crate) struct Welded {
 }
 
 /// Welds, mends and checks the polygons of `file`.
-pub(crate) fn weld(
-    file: &Path,
-    soup: &Soup,
-    notes: &mut Vec<Note>,
-) -> Result<Welded, ImportError> {
+pub(crate) fn weld(file: &Path, soup: &Soup, notes: &mut Vec<Note>) -> Result<Welded, ImportError> {
     if soup.face_count() == 0 {
         let reason = format!("the mesh is empty: {} vertices, no faces", soup.positions.len());
         return Err(ImportError::empty(file, reason));
@@ -45,7 +41,7 @@ pub(crate) fn weld(
             if distinct < soup.positions.len() {
                 let count = soup.positions.len();
                 let text = format!("{count} vertices with {distinct} positions: equal ones are welded");
-                notes.push(Note::note(file, text));
+                notes.push(Note::remark(file, text));
             }
             notes.append(&mut welding_notes);
             return Ok(welded);
@@ -77,7 +73,11 @@ fn weld_positions(positions: &[DVec3]) -> (Vec<u32>, usize) {
     let vertex_of = positions
         .iter()
         .zip(0..)
-        .map(|(p, index)| *first.entry((*p + DVec3::ZERO).to_array().map(f64::to_bits)).or_insert(index))
+        .map(|(p, index)| {
+            *first
+                .entry((*p + DVec3::ZERO).to_array().map(f64::to_bits))
+                .or_insert(index)
+        })
         .collect();
     (vertex_of, first.len())
 }
@@ -108,17 +108,12 @@ impl Selection {
     }
 }
 
-fn build(
-    file: &Path,
-    soup: &Soup,
-    vertex_of: &[u32],
-    notes: &mut Vec<Note>,
-) -> Result<Welded, ImportError> {
+fn build(file: &Path, soup: &Soup, vertex_of: &[u32], notes: &mut Vec<Note>) -> Result<Welded, ImportError> {
     let vertex = |corner: u32| vertex_of[soup.corners[corner as usize] as usize];
     let mut tell = |count: usize, singular: &str, plural: &str| match count {
         0 => {}
-        1 => notes.push(Note::note(file, format!("1 {singular}"))),
-        _ => notes.push(Note::note(file, format!("{count} {plural}"))),
+        1 => notes.push(Note::remark(file, format!("1 {singular}"))),
+        _ => notes.push(Note::remark(file, format!("{count} {plural}"))),
     };
     let (faces, collapsed) = without_collapsed(soup, &vertex);
     tell(
@@ -127,11 +122,22 @@ fn build(
         "faces have fewer than 3 different corners and are dropped",
     );
     let (faces, cut) = without_concave(soup, &vertex, faces);
-    tell(cut, "face is not convex and is triangulated", "faces are not convex and are triangulated");
+    tell(
+        cut,
+        "face is not convex and is triangulated",
+        "faces are not convex and are triangulated",
+    );
     let (faces, doubled) = without_doubled(&vertex, faces);
-    tell(doubled, "face is there twice and is dropped", "faces are there twice and are dropped");
+    tell(
+        doubled,
+        "face is there twice and is dropped",
+        "faces are there twice and are dropped",
+    );
     if faces.ends.is_empty() {
-        return Err(ImportError::empty(file, "the mesh is empty: all its faces are degenerate"));
+        return Err(ImportError::empty(
+            file,
+            "the mesh is empty: all its faces are degenerate",
+        ));
     }
     let (mut welded, unused) = gather(soup, vertex_of, &faces);
     if let Some((face, [u, v])) = tame_uvs(&mut welded.mesh) {
@@ -139,7 +145,11 @@ fn build(
         let reason = format!("the texture coordinate ({u}, {v}) is too large for its face");
         return Err(ImportError::malformed(file, place, reason));
     }
-    tell(unused, "vertex has no face and is dropped", "vertices have no face and are dropped");
+    tell(
+        unused,
+        "vertex has no face and is dropped",
+        "vertices have no face and are dropped",
+    );
     if welded.mesh.faces.len() > MANY_FACES {
         let text = format!(
             "{} faces: keyleaf keeps three or four leaves a face at the least, so that this mesh is drawn \
@@ -152,7 +162,11 @@ fn build(
         Ok(_) => Ok(welded),
         Err(source) => {
             let origin = origin_of(soup, &faces, &source);
-            Err(ImportError::Topology { file: file.to_path_buf(), source, origin })
+            Err(ImportError::Topology {
+                file: file.to_path_buf(),
+                source,
+                origin,
+            })
         }
     }
 }
@@ -184,11 +198,7 @@ fn without_collapsed(soup: &Soup, vertex: &impl Fn(u32) -> u32) -> (Selection, u
 }
 
 /// Triangulates what is not convex or passes through a vertex twice.
-fn without_concave(
-    soup: &Soup,
-    vertex: &impl Fn(u32) -> u32,
-    faces: Selection,
-) -> (Selection, usize) {
+fn without_concave(soup: &Soup, vertex: &impl Fn(u32) -> u32, faces: Selection) -> (Selection, usize) {
     let position = |corner: u32| soup.positions[soup.corners[corner as usize] as usize];
     let is_simple = |face: &[u32]| {
         let mut vertices: Vec<u32> = face.iter().map(|&c| vertex(c)).collect();
@@ -196,9 +206,7 @@ fn without_concave(
         vertices.windows(2).all(|w| w[0] != w[1])
     };
     let keep = |face: &[u32]| {
-        face.len() == 3
-            || is_simple(face)
-                && is_convex(&face.iter().map(|&c| position(c)).collect::<Vec<_>>())
+        face.len() == 3 || is_simple(face) && is_convex(&face.iter().map(|&c| position(c)).collect::<Vec<_>>())
     };
     let concave: Vec<bool> = faces.iter().map(|(face, _)| !keep(face)).collect();
     let cut = concave.iter().filter(|&&c| c).count();
@@ -266,17 +274,16 @@ fn gather(soup: &Soup, vertex_of: &[u32], faces: &Selection) -> (Welded, usize) 
             unused += 1;
         }
     }
-    let vertices = faces.corners.iter().map(|&corner| {
-        new_index[vertex_of[soup.corners[corner as usize] as usize] as usize]
-    });
+    let vertices = faces
+        .corners
+        .iter()
+        .map(|&corner| new_index[vertex_of[soup.corners[corner as usize] as usize] as usize]);
     let pick = |&corner: &u32| corner as usize;
     let at_corners = faces.corners.iter().map(pick);
     let corners = CornerAttributes {
         uvs: (!soup.uvs.is_empty()).then(|| at_corners.clone().map(|c| soup.uvs[c]).collect()),
-        normals: (!soup.normals.is_empty())
-            .then(|| at_corners.clone().map(|c| soup.normals[c]).collect()),
-        colours: (!soup.colours.is_empty())
-            .then(|| at_corners.clone().map(|c| soup.colours[c]).collect()),
+        normals: (!soup.normals.is_empty()).then(|| at_corners.clone().map(|c| soup.normals[c]).collect()),
+        colours: (!soup.colours.is_empty()).then(|| at_corners.clone().map(|c| soup.colours[c]).collect()),
     };
     let of_face = |&face: &u32| soup.materials.get(face as usize).copied().unwrap_or(0);
     let materials = if soup.materials.is_empty() {
@@ -288,7 +295,17 @@ fn gather(soup: &Soup, vertex_of: &[u32], faces: &Selection) -> (Welded, usize) 
     let starts = std::iter::once(0).chain(faces.ends.iter().copied());
     let face = |(start, &end): (u32, &u32)| &vertices[start as usize..end as usize];
     let faces: Faces = starts.zip(&faces.ends).map(face).collect();
-    (Welded { mesh: PolygonMesh { positions, faces, corners }, materials }, unused)
+    (
+        Welded {
+            mesh: PolygonMesh {
+                positions,
+                faces,
+                corners,
+            },
+            materials,
+        },
+        unused,
+    )
 }
 
 /// Texture coordinates beyond this lose their fraction in f32.
@@ -325,8 +342,7 @@ fn origin_of(soup: &Soup, faces: &Selection, error: &TopologyError) -> String {
         | TopologyError::TooManyHalfEdges { face }
         | TopologyError::IndexOutOfRange { face, .. }
         | TopologyError::RepeatedIndex { face, .. } => vec![*face],
-        TopologyError::DuplicateFace { faces }
-        | TopologyError::InconsistentWinding { faces, .. } => faces.to_vec(),
+        TopologyError::DuplicateFace { faces } | TopologyError::InconsistentWinding { faces, .. } => faces.to_vec(),
         TopologyError::NonManifoldEdge { faces, .. } => faces.clone(),
         _ => Vec::new(),
     };
@@ -334,7 +350,16 @@ fn origin_of(soup: &Soup, faces: &Selection, error: &TopologyError) -> String {
         .iter()
         .take(4)
         .filter_map(|&face| faces.origin.get(face as usize))
-        .map(|&face| soup.place_of_face(face as usize).to_string().trim_end_matches(": ").to_owned())
+        .map(|&face| {
+            soup.place_of_face(face as usize)
+                .to_string()
+                .trim_end_matches(": ")
+                .to_owned()
+        })
         .collect();
-    if places.is_empty() { String::new() } else { format!(" (in the file: {})", places.join(", ")) }
+    if places.is_empty() {
+        String::new()
+    } else {
+        format!(" (in the file: {})", places.join(", "))
+    }
 }

@@ -10,6 +10,7 @@
 
 #![deny(missing_docs)]
 
+pub mod check;
 mod load;
 mod picture;
 pub mod plan;

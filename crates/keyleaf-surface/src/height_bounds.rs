@@ -56,7 +56,7 @@ impl HeightBounds {
     /// Over `cells` columns and rows of cells, counted from `first`; cell (i, j) lies between samples i, i + 1 and j, j + 1.
     pub fn new(first: i64, cells: [u32; 2], sample: impl Fn(i64, i64) -> f64, scale: HeightScale) -> Self {
         let [width, height] = cells.map(|n| n.div_ceil(1 << BLOCK_SHIFT));
-        let mut base = vec![Bounds::NOTHING; (width * height) as usize];
+        let mut base = vec![Range::NOTHING; (width * height) as usize];
         let samples_of = |j: i64| -> Vec<f64> {
             (first - 1..first + i64::from(cells[0]) + 2)
                 .map(|i| sample(i, first + j))
@@ -67,11 +67,12 @@ impl HeightBounds {
             rows.rotate_left(1);
             rows[3] = samples_of(i64::from(j) + 2);
             let blocks = &mut base[((j >> BLOCK_SHIFT) * width) as usize..];
-            for (i, bounds) in cell_row(&rows, scale).enumerate() {
+            for (i, hull) in cell_row(&rows, scale).into_iter().enumerate() {
                 let block = &mut blocks[i >> BLOCK_SHIFT];
-                *block = block.union(bounds);
+                *block = block.union(hull.range(scale));
             }
         }
+        let base = base.into_iter().map(|range: Range| range.bounds(scale)).collect();
         Self {
             texture: Arc::new(pyramid(base, width, height)),
         }
@@ -139,48 +140,121 @@ fn pyramid(base: Vec<Bounds>, width: u32, height: u32) -> TextureData {
     }
 }
 
-/// The bounds of a row of cells from the samples of the rows at -1, 0, 1 and 2, each from one before the first cell.
-fn cell_row(rows: &[Vec<f64>; 4], scale: HeightScale) -> impl Iterator<Item = Bounds> {
-    let coefficients = move |i: usize| bezier([0, 1, 2, 3].map(|row| rows[row][i]), scale.interpolation);
-    let mut window = [0, 0, 1, 2].map(coefficients);
-    (3..rows[0].len()).map(move |i| {
-        window = [window[1], window[2], window[3], coefficients(i)];
-        cell(&window, scale)
-    })
+/// The hulls of a row of cells from the samples of the rows at -1, 0, 1 and 2, each from one before the first cell.
+///
+/// In passes over whole rows, which compilers turn into vector instructions.
+fn cell_row(rows: &[Vec<f64>; 4], scale: HeightScale) -> Vec<Hull> {
+    let count = rows[0].len();
+    let mut vertical = [const { Vec::new() }; 4];
+    vertical
+        .iter_mut()
+        .for_each(|coefficients| coefficients.resize(count, 0.0));
+    for i in 0..count {
+        let coefficients = bezier([rows[0][i], rows[1][i], rows[2][i], rows[3][i]], scale.interpolation);
+        (0..4).for_each(|k| vertical[k][i] = coefficients[k]);
+    }
+    let mut hulls = vec![Hull::NOTHING; count - 3];
+    let mut below = vec![[0.0; 4]; count - 3];
+    for (k, row) in vertical.iter().enumerate() {
+        for (i, (hull, below)) in hulls.iter_mut().zip(&mut below).enumerate() {
+            let row = bezier([row[i], row[i + 1], row[i + 2], row[i + 3]], scale.interpolation);
+            hull.add_row(row, if k == 0 { row } else { *below });
+            *below = row;
+        }
+    }
+    hulls
 }
 
 /// The cubic Bézier coefficients between the middle two of four samples.
 fn bezier([a, b, c, d]: [f64; 4], interpolation: Interpolation) -> [f64; 4] {
     match interpolation {
-        Interpolation::Bicubic => [b, b + (c - a) / 6.0, c - (d - b) / 6.0, c],
-        Interpolation::Bilinear => [b, b + (c - b) / 3.0, c - (c - b) / 3.0, c],
+        Interpolation::Bicubic => [b, b + (c - a) * (1.0 / 6.0), c - (d - b) * (1.0 / 6.0), c],
+        Interpolation::Bilinear => [b, b + (c - b) * (1.0 / 3.0), c - (c - b) * (1.0 / 3.0), c],
     }
 }
 
-/// The bounds of a cell from the vertical coefficients of its four columns of samples.
-fn cell(columns: &[[f64; 4]; 4], scale: HeightScale) -> Bounds {
-    let rows = [0, 1, 2, 3].map(|k| bezier(columns.map(|column| column[k]), scale.interpolation));
-    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-    let mut steepest = [0.0f64; 2];
-    for k in 0..4 {
-        for l in 0..4 {
-            low = low.min(rows[k][l]);
-            high = high.max(rows[k][l]);
-            if l > 0 {
-                steepest[0] = steepest[0].max((rows[k][l] - rows[k][l - 1]).abs());
-            }
-            if k > 0 {
-                steepest[1] = steepest[1].max((rows[k][l] - rows[k - 1][l]).abs());
-            }
+/// The hull of the Bézier coefficients of samples, and their greatest differences along rows and columns.
+#[derive(Clone, Copy)]
+struct Hull {
+    low: f64,
+    high: f64,
+    steps: [f64; 2],
+}
+
+impl Hull {
+    const NOTHING: Self = Self {
+        low: f64::INFINITY,
+        high: f64::NEG_INFINITY,
+        steps: [0.0; 2],
+    };
+
+    /// Takes in a row of coefficients, given the one below it.
+    fn add_row(&mut self, row: [f64; 4], below: [f64; 4]) {
+        let [a, b, c, d] = row;
+        let [e, f, g, h] = below;
+        let largest = |a, b, c, d| larger(larger(a, b), larger(c, d));
+        self.low = smaller(self.low, smaller(smaller(a, b), smaller(c, d)));
+        self.high = larger(self.high, largest(a, b, c, d));
+        self.steps[0] = largest(self.steps[0], (b - a).abs(), (c - b).abs(), (d - c).abs());
+        self.steps[1] = larger(
+            self.steps[1],
+            largest((a - e).abs(), (b - f).abs(), (c - g).abs(), (d - h).abs()),
+        );
+    }
+
+    fn range(self, scale: HeightScale) -> Range {
+        let [along, across] = [0, 1].map(|k| 3.0 * self.steps[k] * scale.slope[k]);
+        Range {
+            low: self.low,
+            high: self.high,
+            squared_slope: along * along + across * across,
         }
     }
-    let (a, b) = (low * scale.scale + scale.offset, high * scale.scale + scale.offset);
-    let slope = (3.0 * steepest[0] * scale.slope[0]).hypot(3.0 * steepest[1] * scale.slope[1]);
-    Bounds {
-        low: -round_up(-a.min(b)),
-        high: round_up(a.max(b)),
-        slope: round_up(slope),
+}
+
+/// The samples' range over cells and the square of the greatest slope.
+#[derive(Clone, Copy)]
+struct Range {
+    low: f64,
+    high: f64,
+    squared_slope: f64,
+}
+
+impl Range {
+    const NOTHING: Self = Self {
+        low: f64::INFINITY,
+        high: f64::NEG_INFINITY,
+        squared_slope: 0.0,
+    };
+
+    fn union(self, other: Self) -> Self {
+        Self {
+            low: smaller(self.low, other.low),
+            high: larger(self.high, other.high),
+            squared_slope: larger(self.squared_slope, other.squared_slope),
+        }
     }
+
+    fn bounds(self, scale: HeightScale) -> Bounds {
+        let (a, b) = (
+            self.low * scale.scale + scale.offset,
+            self.high * scale.scale + scale.offset,
+        );
+        Bounds {
+            low: -round_up(-a.min(b)),
+            high: round_up(a.max(b)),
+            slope: round_up(self.squared_slope.sqrt()),
+        }
+    }
+}
+
+/// The smaller of two numbers, one instruction where `f64::min` asks for NaN.
+fn smaller(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
 }
 
 #[cfg(test)]

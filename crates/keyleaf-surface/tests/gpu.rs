@@ -88,6 +88,46 @@ fn positions_and_frames_agree_with_the_twin() {
 }
 
 #[test]
+fn maps_are_exact_near_the_origin_however_large_they_are() {
+    let Some(device) = Device::new() else {
+        eprintln!("no adapter: skipped");
+        return;
+    };
+    let fixtures = fixtures();
+    for fixture in fixtures
+        .iter()
+        .filter(|f| f.name.contains("terrain") || f.name.contains("field"))
+    {
+        let surface = &*fixture.surface;
+        let mut random = Random(9);
+        let root = random.below(4);
+        let near = |x: u32, y: u32| RootPoint {
+            face: 0,
+            root,
+            x: ONE / 3 + x,
+            y: ONE / 5 + y,
+        };
+        let points: Vec<RootPoint> = (0..2000)
+            .map(|_| near(random.below(1000), random.below(1000)))
+            .collect();
+        let origin = surface.point(near(500, 500)) + DVec3::new(0.3, 0.1, 0.2) * 1e-4;
+        let tables = surface.tables(origin);
+        let source = shaders::composed(surface.shader());
+        let words = surface.topology().gpu_words();
+        for (&at, gpu) in points
+            .iter()
+            .zip(evaluate(&device, &source, &tables, &words, &points, &[]).frames)
+        {
+            let truth = surface.point(at) - origin;
+            let error = (gpu.point.as_dvec3() - truth) * DVec3::new(1.0, 0.0, 1.0);
+            let rounding_of_truth = 4.0 * f64::EPSILON * (origin.length() + truth.length());
+            let allowed = 4.0 * EPSILON * truth.length() + rounding_of_truth;
+            assert!(error.length() <= allowed, "{}: {error} of {truth}", fixture.name);
+        }
+    }
+}
+
+#[test]
 fn every_address_of_a_site_gives_the_same_bits() {
     with_every_surface(|fixture, run| {
         let topology = fixture.surface.topology();

@@ -7,6 +7,39 @@
 //! The library borrows device, queue and encoder; it submits nothing and waits for nothing (but in [`read_back`] and [`headless`],
 //! which are for tools).
 //!
+//! # Example
+//! An engine brings device, queue, encoder and render pass:
+//!
+//! ```no_run
+//! use glam::{DAffine3, DVec3, UVec2};
+//! use keyleaf::draw::{LeafDraw, LeafPipeline, Look, Target};
+//! use keyleaf::shading::{Channel, Shading};
+//! use keyleaf::surface::{Terrain, TerrainSettings};
+//! use keyleaf::{Passes, Quadtree, Settings, View, wgpu};
+//! use std::sync::Arc;
+//!
+//! # fn frame(device: &wgpu::Device, queue: &wgpu::Queue, target: Target, encoder: &mut wgpu::CommandEncoder,
+//! #     mut begin: impl FnMut(&mut wgpu::CommandEncoder) -> wgpu::RenderPass<'static>) -> Result<(), Box<dyn std::error::Error>> {
+//! // Once: a surface, its pipelines, its quadtree.
+//! let surface = Arc::new(Terrain::new(TerrainSettings::default())?);
+//! let settings = Settings::default();
+//! let kind = Quadtree::kind(surface.as_ref(), &settings);
+//! let passes = Arc::new(Passes::new(device, kind)?);
+//! let mut quadtree = Quadtree::new(device, queue, passes, surface, DAffine3::IDENTITY, settings)?;
+//! let channel = Channel::Colour(Default::default(), Default::default(), Default::default());
+//! let pipeline = LeafPipeline::new(device, &kind, channel, target)?;
+//! let mut draw = LeafDraw::new(device, queue, &pipeline, &quadtree, &Look::default());
+//!
+//! // Every frame: refine, then draw in a pass of one's own.
+//! let view = View::look_at(DVec3::new(0.0, 2e4, 0.0), DVec3::new(5e4, 0.0, -5e4), 0.9, 1.0, UVec2::new(1280, 720));
+//! quadtree.update(queue, encoder, &view);
+//! draw.prepare(device, queue, &quadtree, &Shading::default());
+//! let mut pass = begin(encoder);
+//! draw.draw(&mut pass, &pipeline, &quadtree);
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! # Objects, by lifetime
 //! | object | lives as long as | holds |
 //! |---|---|---|

@@ -11,13 +11,13 @@ use std::sync::atomic::{AtomicU64, Ordering};
 ///
 /// # Errors
 /// What `write` or the system says.
-pub fn write_whole(
-    file: &Path,
-    write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-) -> io::Result<()> {
+pub fn write_whole(file: &Path, write: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> io::Result<()> {
     static COUNT: AtomicU64 = AtomicU64::new(0);
     let Some(name) = file.file_name() else {
-        return Err(io::Error::new(io::ErrorKind::InvalidInput, "this is not the name of a file"));
+        return Err(io::Error::new(
+            io::ErrorKind::InvalidInput,
+            "this is not the name of a file",
+        ));
     };
     let number = COUNT.fetch_add(1, Ordering::Relaxed);
     let mut temporary_name = OsString::from(".");

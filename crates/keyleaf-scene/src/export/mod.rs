@@ -98,30 +98,48 @@ pub fn write_mesh(file: &Path, mesh: &ExportMesh<'_>) -> Result<(), ExportError>
         "stl" => stl::write,
         other => {
             let extension = other.to_owned();
-            return Err(ExportError::UnknownExtension { file: file.to_path_buf(), extension });
+            return Err(ExportError::UnknownExtension {
+                file: file.to_path_buf(),
+                extension,
+            });
         }
     };
     check(file, mesh)?;
-    write_whole(file, |out| write(out, mesh))
-        .map_err(|source| ExportError::Write { file: file.to_path_buf(), source })
+    write_whole(file, |out| write(out, mesh)).map_err(|source| ExportError::Write {
+        file: file.to_path_buf(),
+        source,
+    })
 }
 
 fn check(file: &Path, mesh: &ExportMesh<'_>) -> Result<(), ExportError> {
     let normals = mesh.normals.unwrap_or_default();
     for (what, list) in [("position", mesh.positions), ("normal", normals)] {
         if let Some(index) = list.iter().position(|v| !v.iter().all(|c| c.is_finite())) {
-            return Err(ExportError::NotFinite { file: file.to_path_buf(), what, index });
+            return Err(ExportError::NotFinite {
+                file: file.to_path_buf(),
+                what,
+                index,
+            });
         }
     }
-    let inconsistent = |problem| Err(ExportError::Inconsistent { file: file.to_path_buf(), problem });
+    let inconsistent = |problem| {
+        Err(ExportError::Inconsistent {
+            file: file.to_path_buf(),
+            problem,
+        })
+    };
     let count = mesh.positions.len();
     if mesh.normals.is_some() && normals.len() != count {
         return inconsistent(format!("{} normals for {count} positions", normals.len()));
     }
-    match mesh.triangles.iter().position(|t| t.iter().any(|&v| v as usize >= count)) {
+    match mesh
+        .triangles
+        .iter()
+        .position(|t| t.iter().any(|&v| v as usize >= count))
+    {
         None => Ok(()),
-        Some(index) => {
-            inconsistent(format!("triangle {index} refers to a vertex beyond the {count} there are"))
-        }
+        Some(index) => inconsistent(format!(
+            "triangle {index} refers to a vertex beyond the {count} there are"
+        )),
     }
 }

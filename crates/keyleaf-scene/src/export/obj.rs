@@ -5,7 +5,12 @@ use std::io::{self, Write};
 use super::ExportMesh;
 
 pub(super) fn write(out: &mut impl Write, mesh: &ExportMesh<'_>) -> io::Result<()> {
-    writeln!(out, "# keyleaf: {} vertices, {} triangles", mesh.positions.len(), mesh.triangles.len())?;
+    writeln!(
+        out,
+        "# keyleaf: {} vertices, {} triangles",
+        mesh.positions.len(),
+        mesh.triangles.len()
+    )?;
     for [x, y, z] in mesh.positions {
         writeln!(out, "v {x} {y} {z}")?;
     }

@@ -9,7 +9,11 @@ pub(super) fn write(out: &mut impl Write, mesh: &ExportMesh<'_>) -> io::Result<(
         None => &["x", "y", "z"],
         Some(_) => &["x", "y", "z", "nx", "ny", "nz"],
     };
-    writeln!(out, "ply\nformat ascii 1.0\ncomment keyleaf\nelement vertex {}", mesh.positions.len())?;
+    writeln!(
+        out,
+        "ply\nformat ascii 1.0\ncomment keyleaf\nelement vertex {}",
+        mesh.positions.len()
+    )?;
     for property in properties {
         writeln!(out, "property float {property}")?;
     }

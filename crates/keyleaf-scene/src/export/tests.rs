@@ -37,13 +37,22 @@ fn written_positions_read_back_with_the_same_bits() {
             write_mesh(&file, &mesh(normals)).unwrap();
             let model = read_model(&file, &ModelOptions::default()).unwrap();
             let bits = |v: glam::DVec3| v.as_vec3().to_array().map(f32::to_bits);
-            let read: Vec<_> = model.mesh.faces.iter().map(|f| [f[0], f[1], f[2]].map(|v| bits(model.mesh.positions[v as usize]))).collect();
+            let read: Vec<_> = model
+                .mesh
+                .faces
+                .iter()
+                .map(|f| [f[0], f[1], f[2]].map(|v| bits(model.mesh.positions[v as usize])))
+                .collect();
             let written = TETRAHEDRON.map(|t| t.map(|v| POSITIONS[v as usize].map(f32::to_bits)));
             assert_eq!(read, written, "{name}");
             assert_eq!(model.mesh.corners.normals.is_some(), normals && name != "a.stl");
         }
     }
-    assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 3, "no temporary file is left");
+    assert_eq!(
+        std::fs::read_dir(&folder).unwrap().count(),
+        3,
+        "no temporary file is left"
+    );
     std::fs::remove_dir_all(folder).unwrap();
 }
 
@@ -60,11 +69,30 @@ fn failure_leaves_what_was_there() {
     let folder = folder("failure");
     let file = folder.join("a.obj");
     std::fs::write(&file, "before").unwrap();
-    let nan = ExportMesh { positions: &[[f32::NAN; 3]], ..ExportMesh::default() };
-    assert!(write_mesh(&file, &nan).unwrap_err().to_string().contains("position 0 is not finite"));
-    let beyond = ExportMesh { triangles: &[[0, 1, 9]], ..mesh(false) };
-    assert!(write_mesh(&file, &beyond).unwrap_err().to_string().contains("triangle 0"));
-    let few = ExportMesh { normals: Some(&[]), ..mesh(false) };
+    let nan = ExportMesh {
+        positions: &[[f32::NAN; 3]],
+        ..ExportMesh::default()
+    };
+    assert!(
+        write_mesh(&file, &nan)
+            .unwrap_err()
+            .to_string()
+            .contains("position 0 is not finite")
+    );
+    let beyond = ExportMesh {
+        triangles: &[[0, 1, 9]],
+        ..mesh(false)
+    };
+    assert!(
+        write_mesh(&file, &beyond)
+            .unwrap_err()
+            .to_string()
+            .contains("triangle 0")
+    );
+    let few = ExportMesh {
+        normals: Some(&[]),
+        ..mesh(false)
+    };
     assert!(matches!(write_mesh(&file, &few), Err(ExportError::Inconsistent { .. })));
     let broken = write_whole(&file, |out| {
         io::Write::write_all(out, b"half of it")?;
@@ -72,8 +100,14 @@ fn failure_leaves_what_was_there() {
     });
     assert!(broken.is_err());
     assert_eq!(std::fs::read_to_string(&file).unwrap(), "before");
-    assert!(matches!(write_mesh(&folder.join("no/a.obj"), &mesh(false)), Err(ExportError::Write { .. })));
-    assert!(matches!(write_mesh(&folder.join("a.fbx"), &mesh(false)), Err(ExportError::UnknownExtension { .. })));
+    assert!(matches!(
+        write_mesh(&folder.join("no/a.obj"), &mesh(false)),
+        Err(ExportError::Write { .. })
+    ));
+    assert!(matches!(
+        write_mesh(&folder.join("a.fbx"), &mesh(false)),
+        Err(ExportError::UnknownExtension { .. })
+    ));
     assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 1);
     std::fs::remove_dir_all(folder).unwrap();
 }

@@ -40,11 +40,7 @@ pub(super) struct Raster {
 }
 
 /// Decodes a height map; the ending of its name tells the format.
-pub(super) fn decode(
-    file: &Path,
-    options: &HeightMapOptions,
-    notes: &mut Vec<Note>,
-) -> Result<Raster, ImportError> {
+pub(super) fn decode(file: &Path, options: &HeightMapOptions, notes: &mut Vec<Note>) -> Result<Raster, ImportError> {
     let format = extension(file);
     if !super::is_height_map(file) {
         return Err(ImportError::UnknownExtension {
@@ -84,27 +80,28 @@ fn decode_png(file: &Path, bytes: &[u8], notes: &mut Vec<Note>) -> Result<Raster
     let (kind, samples) = match picture {
         DynamicImage::ImageLuma8(grey) => (SampleKind::Byte, of_u8(grey.into_raw())),
         DynamicImage::ImageLuma16(grey) => (SampleKind::Unsigned, of_u16(grey.into_raw())),
-        deep @ (DynamicImage::ImageLumaA16(_)
-        | DynamicImage::ImageRgb16(_)
-        | DynamicImage::ImageRgba16(_)) => {
+        deep @ (DynamicImage::ImageLumaA16(_) | DynamicImage::ImageRgb16(_) | DynamicImage::ImageRgba16(_)) => {
             (SampleKind::Unsigned, of_u16(deep.into_luma16().into_raw()))
         }
         other => (SampleKind::Byte, of_u8(other.into_luma8().into_raw())),
     };
     if kind == SampleKind::Byte {
         let text = "8 bits a sample make terraces; use 16 bits or floats";
-        notes.push(Note::note(file, text));
+        notes.push(Note::remark(file, text));
     }
     let full_scale = if kind == SampleKind::Byte { 255.0 } else { 65_535.0 };
-    Ok(Raster { width, height, samples, kind, full_scale, no_data: None })
+    Ok(Raster {
+        width,
+        height,
+        samples,
+        kind,
+        full_scale,
+        no_data: None,
+    })
 }
 
 /// Raw 16-bit samples, little-endian, unsigned, row by row.
-fn decode_raw(
-    file: &Path,
-    bytes: &[u8],
-    size: Option<[u32; 2]>,
-) -> Result<Raster, ImportError> {
+fn decode_raw(file: &Path, bytes: &[u8], size: Option<[u32; 2]>) -> Result<Raster, ImportError> {
     let count = bytes.len() / 2;
     let [width, height] = match size {
         Some(size) => size.map(|s| s as usize),
@@ -127,7 +124,14 @@ fn decode_raw(
     let sample = |b: &[u8]| f32::from(u16::from_le_bytes([b[0], b[1]]));
     let samples = bytes.chunks_exact(2).map(sample).collect();
     let kind = SampleKind::Unsigned;
-    Ok(Raster { width, height, samples, kind, full_scale: 65_535.0, no_data: None })
+    Ok(Raster {
+        width,
+        height,
+        samples,
+        kind,
+        full_scale: 65_535.0,
+        no_data: None,
+    })
 }
 
 fn decode_tiff(file: &Path, bytes: &[u8], notes: &mut Vec<Note>) -> Result<Raster, ImportError> {
@@ -174,17 +178,19 @@ fn decode_tiff(file: &Path, bytes: &[u8], notes: &mut Vec<Note>) -> Result<Raste
         DecodingResult::I64(v) => (SampleKind::Signed, rounded(v, |x| x as f32, file, notes)),
     };
     let (width, height) = (width as usize, height as usize);
-    Ok(Raster { width, height, samples, kind, full_scale, no_data })
+    Ok(Raster {
+        width,
+        height,
+        samples,
+        kind,
+        full_scale,
+        no_data,
+    })
 }
 
 /// Samples of more than 24 bits as f32, with a note.
-fn rounded<T>(
-    values: Vec<T>,
-    to_f32: impl Fn(T) -> f32,
-    file: &Path,
-    notes: &mut Vec<Note>,
-) -> Vec<f32> {
-    notes.push(Note::note(file, "samples are rounded to 32-bit floats"));
+fn rounded<T>(values: Vec<T>, to_f32: impl Fn(T) -> f32, file: &Path, notes: &mut Vec<Note>) -> Vec<f32> {
+    notes.push(Note::remark(file, "samples are rounded to 32-bit floats"));
     values.into_iter().map(to_f32).collect()
 }
 
@@ -217,14 +223,14 @@ fn decode_exr(file: &Path, bytes: &[u8], notes: &mut Vec<Note>) -> Result<Raster
         .map_err(malformed)?;
     let layer = image.layer_data;
     let channels = &layer.channel_data.list;
-    let named = |name: &&str| channels.iter().find(|c| c.name.to_string() == **name);
-    let channel = EXR_CHANNELS.iter().find_map(|name| named(name)).or(channels.first());
+    let named = |name: &&str| channels.iter().find(|c| c.name == **name);
+    let channel = EXR_CHANNELS.iter().find_map(named).or(channels.first());
     let Some(channel) = channel else {
         return Err(ImportError::empty(file, "the picture has no channels"));
     };
     if channels.len() > 1 {
         let text = format!("channel '{}' of {} is taken for heights", channel.name, channels.len());
-        notes.push(Note::note(file, text));
+        notes.push(Note::remark(file, text));
     }
     let samples = match &channel.sample_data {
         FlatSamples::F16(values) => values.iter().map(|h| h.to_f32()).collect(),
@@ -233,5 +239,12 @@ fn decode_exr(file: &Path, bytes: &[u8], notes: &mut Vec<Note>) -> Result<Raster
     };
     let (width, height) = (layer.size.width(), layer.size.height());
     let kind = SampleKind::Float;
-    Ok(Raster { width, height, samples, kind, full_scale: 1.0, no_data: None })
+    Ok(Raster {
+        width,
+        height,
+        samples,
+        kind,
+        full_scale: 1.0,
+        no_data: None,
+    })
 }

@@ -20,8 +20,8 @@ pub(super) fn fill(samples: &mut [f32], mask: &[bool], width: usize) {
     let mut work: Vec<f64> = guess;
     for _ in 0..SWEEPS {
         for &at in &voids {
-            let (sum, count) = neighbours(at, width, height)
-                .fold((0.0, 0), |(sum, count), n| (sum + work[n], count + 1));
+            let (sum, count) =
+                neighbours(at, width, height).fold((0.0, 0), |(sum, count), n| (sum + work[n], count + 1));
             let mean = sum / f64::from(count);
             work[at] += OVER_RELAXATION * (mean - work[at]);
         }
@@ -34,12 +34,7 @@ pub(super) fn fill(samples: &mut [f32], mask: &[bool], width: usize) {
 }
 
 /// The connected voids, each with the lowest and highest sample of its border.
-fn regions(
-    samples: &[f32],
-    mask: &[bool],
-    width: usize,
-    height: usize,
-) -> Vec<(Vec<usize>, f32, f32)> {
+fn regions(samples: &[f32], mask: &[bool], width: usize, height: usize) -> Vec<(Vec<usize>, f32, f32)> {
     let mut seen = vec![false; samples.len()];
     let mut regions = Vec::new();
     for start in 0..samples.len() {
@@ -77,9 +72,20 @@ struct Level {
 
 /// A value for every sample: itself, or for a void the average of the smallest block of 2^k × 2^k that has samples.
 fn push_pull(samples: &[f32], mask: &[bool], width: usize, height: usize) -> Vec<f64> {
-    let known = |i: usize| if mask[i] { (0.0, 0.0) } else { (f64::from(samples[i]), 1.0) };
+    let known = |i: usize| {
+        if mask[i] {
+            (0.0, 0.0)
+        } else {
+            (f64::from(samples[i]), 1.0)
+        }
+    };
     let (sums, counts) = (0..samples.len()).map(known).unzip();
-    let mut levels = vec![Level { width, height, sums, counts }];
+    let mut levels = vec![Level {
+        width,
+        height,
+        sums,
+        counts,
+    }];
     while let Some(level) = levels.last().filter(|l| l.width * l.height > 1) {
         let (w, h) = (level.width.div_ceil(2), level.height.div_ceil(2));
         let (mut sums, mut counts) = (vec![0.0; w * h], vec![0.0; w * h]);
@@ -90,7 +96,12 @@ fn push_pull(samples: &[f32], mask: &[bool], width: usize, height: usize) -> Vec
                 counts[to] += level.counts[from];
             }
         }
-        levels.push(Level { width: w, height: h, sums, counts });
+        levels.push(Level {
+            width: w,
+            height: h,
+            sums,
+            counts,
+        });
     }
     let mut values: Vec<f64> = Vec::new();
     let mut coarse_width = 1;
@@ -98,7 +109,11 @@ fn push_pull(samples: &[f32], mask: &[bool], width: usize, height: usize) -> Vec
         let at = |i: usize| {
             let (row, column) = (i / level.width, i % level.width);
             let above = values.get(row / 2 * coarse_width + column / 2).copied().unwrap_or(0.0);
-            if level.counts[i] > 0.0 { level.sums[i] / level.counts[i] } else { above }
+            if level.counts[i] > 0.0 {
+                level.sums[i] / level.counts[i]
+            } else {
+                above
+            }
         };
         values = (0..level.width * level.height).map(at).collect();
         coarse_width = level.width;
@@ -117,7 +132,10 @@ mod tests {
         let mut samples: Vec<f32> = (0..400).map(slope).collect();
         let hole = |i: usize| (5..15).contains(&(i % width)) && (5..15).contains(&(i / width));
         let mask: Vec<bool> = (0..400).map(hole).collect();
-        samples.iter_mut().zip(&mask).for_each(|(s, void)| *s = if *void { 0.0 } else { *s });
+        samples
+            .iter_mut()
+            .zip(&mask)
+            .for_each(|(s, void)| *s = if *void { 0.0 } else { *s });
         fill(&mut samples, &mask, width);
         for (i, sample) in samples.iter().enumerate() {
             assert!((sample - slope(i)).abs() < 0.01, "{i}: {sample}");
@@ -130,8 +148,9 @@ mod tests {
         let noise = |i: usize| ((i * 7919) % 997) as f32;
         let mut samples: Vec<f32> = (0..width * width).map(noise).collect();
         // Long thin voids, one along the edge of the map.
-        let mask: Vec<bool> =
-            (0..width * width).map(|i| i / width == 12 || i % width == 30 || i % 97 == 0).collect();
+        let mask: Vec<bool> = (0..width * width)
+            .map(|i| i / width == 12 || i % width == 30 || i % 97 == 0)
+            .collect();
         let before = samples.clone();
         fill(&mut samples, &mask, width);
         for (region, low, high) in regions(&before, &mask, width, width) {

@@ -1,7 +1,7 @@
 //! Height maps: PNG (8 and 16 bits), TIFF (integers and floats), OpenEXR, raw 16 bits.
 //!
 //! Samples are kept as the file has them, in f32, which is exact for all 8- and 16-bit integers: the vertical unit is
-//! one quantum of the file. Voids (samples that the sensor did not see) are found by the rules of [`voids`] and filled
+//! one quantum of the file. Voids (samples that the sensor did not see) are found by rules (`voids.rs`) and filled
 //! smoothly from the samples around them, so that nothing drawn is a spike.
 
 mod decode;
@@ -56,7 +56,11 @@ impl HeightMapFile {
             let (low, high) = self.range;
             let relief = (f64::from(high) - f64::from(low)) * scale.abs();
             let steps = f64::from(self.map.width().max(self.map.height()) - 1);
-            DVec2::splat(if relief > 0.0 { RELIEF_TO_SIDE * relief / steps } else { 1.0 })
+            DVec2::splat(if relief > 0.0 {
+                RELIEF_TO_SIDE * relief / steps
+            } else {
+                1.0
+            })
         })
     }
 }
@@ -85,15 +89,11 @@ pub fn is_height_map(file: &Path) -> bool {
 /// # Errors
 /// [`ImportError`] names the file and the reason: unreadable, truncated, an unknown type, smaller than 2×2, no sample
 /// that is not a void, a sidecar that does not fit.
-pub fn read_height_map(
-    file: &Path,
-    options: &HeightMapOptions,
-) -> Result<HeightMapFile, ImportError> {
+pub fn read_height_map(file: &Path, options: &HeightMapOptions) -> Result<HeightMapFile, ImportError> {
     let mut notes = Vec::new();
     let mut raster = decode::decode(file, options, &mut notes)?;
     let sidecar = sidecar::Sidecar::read_beside(file)?;
-    let listed = sidecar.as_ref().and_then(|s| s.voids.as_deref());
-    let mask = voids::find(file, &raster, options.void_value, listed, &mut notes)?;
+    let mask = voids::find(file, &raster, options.void_value, sidecar.as_ref(), &mut notes)?;
     let voids = mask.iter().filter(|&&v| v).count();
     if voids == mask.len() {
         return Err(ImportError::empty(file, "all samples of the height map are voids"));
@@ -101,15 +101,23 @@ pub fn read_height_map(
     if voids > 0 {
         fill::fill(&mut raster.samples, &mask, raster.width);
         let percent = 100.0 * voids as f64 / mask.len() as f64;
-        notes.push(Note::note(file, format!("{voids} voids ({percent:.2} %) are filled")));
+        notes.push(Note::remark(file, format!("{voids} voids ({percent:.2} %) are filled")));
     }
     let range = raster
         .samples
         .iter()
-        .fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), &s| (low.min(s), high.max(s)));
+        .fold((f32::INFINITY, f32::NEG_INFINITY), |(low, high), &s| {
+            (low.min(s), high.max(s))
+        });
     let spacing = sidecar.and_then(|s| s.spacing(file, &mut notes));
     let map = height_map(file, raster)?;
-    Ok(HeightMapFile { map, range, voids, spacing, notes })
+    Ok(HeightMapFile {
+        map,
+        range,
+        voids,
+        spacing,
+        notes,
+    })
 }
 
 /// Reads a picture of displacements: like a height map, but no sample is taken for a void.
@@ -120,15 +128,20 @@ pub fn read_displacement(file: &Path) -> Result<DisplacementFile, ImportError> {
     let mut notes = Vec::new();
     let raster = decode::decode(file, &HeightMapOptions::default(), &mut notes)?;
     let full_scale = raster.full_scale;
-    Ok(DisplacementFile { map: height_map(file, raster)?, full_scale, notes })
+    Ok(DisplacementFile {
+        map: height_map(file, raster)?,
+        full_scale,
+        notes,
+    })
 }
 
 fn height_map(file: &Path, raster: decode::Raster) -> Result<HeightMap, ImportError> {
     HeightMap::new(raster.width as u32, raster.height as u32, raster.samples).map_err(|error| {
         let place = match error {
-            HeightMapError::Sample { column, row, .. } => {
-                FilePlace::Sample { row: row as usize, column: column as usize }
-            }
+            HeightMapError::Sample { column, row, .. } => FilePlace::Sample {
+                row: row as usize,
+                column: column as usize,
+            },
             _ => FilePlace::Whole,
         };
         ImportError::malformed(file, place, error.to_string())

@@ -20,9 +20,11 @@ pub struct Sidecar {
     pub tile: Option<String>,
     /// Distance of samples in arc seconds, in both directions.
     pub spacing_arcsec: Option<f64>,
-    /// Rows and columns of the voids, row 0 at the top. If present, no other sample is taken for a void but those
-    /// that are not numbers or equal to an explicit void value.
+    /// Rows and columns of the voids, row 0 at the top. If the list is complete, no other sample is taken for a void but
+    /// those that are not numbers or equal to an explicit void value.
     pub voids: Option<Vec<[usize; 2]>>,
+    /// How many voids there are, if the list has only some of them.
+    pub n_void: Option<usize>,
 }
 
 impl Sidecar {
@@ -49,11 +51,14 @@ impl Sidecar {
     /// the sidecar or the file begins with; without one the equator's, with a note.
     pub(super) fn spacing(&self, map: &Path, notes: &mut Vec<Note>) -> Option<DVec2> {
         let north = self.spacing_arcsec? * METRES_PER_ARCSEC;
-        let stem = map.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+        let stem = map
+            .file_stem()
+            .map(|s| s.to_string_lossy().into_owned())
+            .unwrap_or_default();
         let south = self.tile.as_deref().and_then(latitude).or_else(|| latitude(&stem));
         if south.is_none() {
             let text = "no tile name such as N46E008 tells the latitude: east-west distances are the equator's";
-            notes.push(Note::note(map, text));
+            notes.push(Note::remark(map, text));
         }
         let middle = south.map_or(0.0, |s| s + 0.5);
         Some(DVec2::new(north * middle.to_radians().cos(), north))
@@ -89,7 +94,10 @@ mod tests {
 
     #[test]
     fn spacing_shrinks_with_the_cosine_of_the_latitude() {
-        let sidecar = Sidecar { spacing_arcsec: Some(3.0), ..Sidecar::default() };
+        let sidecar = Sidecar {
+            spacing_arcsec: Some(3.0),
+            ..Sidecar::default()
+        };
         let spacing = sidecar.spacing(Path::new("N60E010.png"), &mut Vec::new()).unwrap();
         assert!((spacing.y - 92.61).abs() < 1e-9);
         assert!((spacing.x / spacing.y - 60.5f64.to_radians().cos()).abs() < 1e-12);

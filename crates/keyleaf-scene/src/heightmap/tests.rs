@@ -18,12 +18,17 @@ fn read(file: &Path) -> Result<HeightMapFile, String> {
 
 fn samples(map: &HeightMap) -> Vec<f32> {
     let rows = (0..map.height()).rev();
-    rows.flat_map(|j| (0..map.width()).map(move |i| (i, j))).map(|(i, j)| map.sample(i, j)).collect()
+    rows.flat_map(|j| (0..map.width()).map(move |i| (i, j)))
+        .map(|(i, j)| map.sample(i, j))
+        .collect()
 }
 
 fn save_grey16(file: &Path, width: u32, values: &[u16]) {
     let height = values.len() as u32 / width;
-    ImageBuffer::<Luma<u16>, _>::from_raw(width, height, values.to_vec()).unwrap().save(file).unwrap();
+    ImageBuffer::<Luma<u16>, _>::from_raw(width, height, values.to_vec())
+        .unwrap()
+        .save(file)
+        .unwrap();
 }
 
 /// A slope from 100 to 219, 12x10.
@@ -50,8 +55,14 @@ fn all_formats_give_the_exact_samples_with_row_0_on_top() {
         assert_eq!(samples(&read.map), floats, "{name}");
         assert_eq!(read.map.sample(0, 0), 300.0, "row 0 of the map is the lowest");
     }
-    let options = HeightMapOptions { raw_size: Some([3, 2]), ..Default::default() };
-    assert_eq!(samples(&read_height_map(&folder.join("a.r16"), &options).unwrap().map), floats);
+    let options = HeightMapOptions {
+        raw_size: Some([3, 2]),
+        ..Default::default()
+    };
+    assert_eq!(
+        samples(&read_height_map(&folder.join("a.r16"), &options).unwrap().map),
+        floats
+    );
     std::fs::write(folder.join("b.r16"), &bytes[..8]).unwrap();
     assert_eq!(samples(&read(&folder.join("b.r16")).unwrap().map), floats[..4]);
 
@@ -73,20 +84,28 @@ fn float_tiff_and_exr_keep_their_bits_and_their_nans_are_voids() {
     let values = [0.5f32, -12.25, 1.0e-20, f32::NAN, 8848.862, 3.25];
     let mut tiff = std::io::Cursor::new(Vec::new());
     let mut encoder = tiff::encoder::TiffEncoder::new(&mut tiff).unwrap();
-    encoder.write_image::<tiff::encoder::colortype::Gray32Float>(3, 2, &values).unwrap();
+    encoder
+        .write_image::<tiff::encoder::colortype::Gray32Float>(3, 2, &values)
+        .unwrap();
     std::fs::write(folder.join("a.tif"), tiff.into_inner()).unwrap();
     {
         use exr::prelude::*;
         let channel = |name, values: &[f32]| AnyChannel::new(name, FlatSamples::F32(values.to_vec()));
         let channels = AnyChannels::sort(smallvec_of([channel("A", &[1.0; 6]), channel("Y", &values)]));
-        Image::from_channels((3, 2), channels).write().to_file(folder.join("a.exr")).unwrap();
+        Image::from_channels((3, 2), channels)
+            .write()
+            .to_file(folder.join("a.exr"))
+            .unwrap();
     }
     for name in ["a.tif", "a.exr"] {
         let file = read(&folder.join(name)).unwrap();
         assert_eq!(file.voids, 1, "{name}");
         for (sample, value) in samples(&file.map).iter().zip(values) {
             let filled = value.is_nan() && (0.5..=8848.9).contains(sample);
-            assert!(filled || sample.to_bits() == value.to_bits(), "{name}: {sample} {value}");
+            assert!(
+                filled || sample.to_bits() == value.to_bits(),
+                "{name}: {sample} {value}"
+            );
         }
     }
     std::fs::remove_dir_all(folder).unwrap();
@@ -109,11 +128,18 @@ fn marks_are_voids_only_where_no_other_sample_is_near() {
         assert_eq!(file.voids, 2);
         assert!(file.range.1 < 220.0, "no spike");
         // In a map that uses the whole range it is a height.
-        let full: Vec<u16> = (0..120u32).map(|i| (i * 65_535 / 119) as u16).map(|v| if v.abs_diff(mark) < 600 { mark } else { v }).chain((0..24).map(|i| mark.wrapping_sub(40 + i))).collect();
+        let full: Vec<u16> = (0..120u32)
+            .map(|i| (i * 65_535 / 119) as u16)
+            .map(|v| if v.abs_diff(mark) < 600 { mark } else { v })
+            .chain((0..24).map(|i| mark.wrapping_sub(40 + i)))
+            .collect();
         save_grey16(&folder.join("b.png"), 12, &full);
         assert_eq!(read(&folder.join("b.png")).unwrap().voids, 0, "{mark}");
     }
-    let options = HeightMapOptions { void_value: Some(150.0), ..Default::default() };
+    let options = HeightMapOptions {
+        void_value: Some(150.0),
+        ..Default::default()
+    };
     save_grey16(&folder.join("c.png"), 12, &slope());
     let file = read_height_map(&folder.join("c.png"), &options).unwrap();
     assert_eq!(file.voids, 1);
@@ -125,7 +151,15 @@ fn marks_are_voids_only_where_no_other_sample_is_near() {
 fn zeros_are_voids_without_a_shore_and_sea_with_one() {
     let folder = folder("zeros");
     let hole = |height: u16| -> Vec<u16> {
-        (0..144).map(|i| if (4..8).contains(&(i % 12)) && (4..8).contains(&(i / 12)) { 0 } else { height }).collect()
+        (0..144)
+            .map(|i| {
+                if (4..8).contains(&(i % 12)) && (4..8).contains(&(i / 12)) {
+                    0
+                } else {
+                    height
+                }
+            })
+            .collect()
     };
     save_grey16(&folder.join("hole.png"), 12, &hole(900));
     let file = read(&folder.join("hole.png")).unwrap();
@@ -155,7 +189,11 @@ fn sidecar_tells_voids_and_spacing_and_is_checked() {
     let spacing = map.spacing_or_default(1.0);
     assert!((spacing.y - 30.87).abs() < 1e-12 && (spacing.x - 30.87 * 60.5f64.to_radians().cos()).abs() < 1e-9);
     json(r#"{"voids": [[10, 3]]}"#);
-    assert!(read_it().unwrap_err().contains("row 10, column 3: the listed void is outside"));
+    assert!(
+        read_it()
+            .unwrap_err()
+            .contains("row 10, column 3: the listed void is outside")
+    );
     json("{\n\"voids\": 3}");
     assert!(read_it().unwrap_err().contains("N60E010_x.json: line 2:"));
     json(r#"{"spacing_arcsec": -1}"#);
@@ -188,7 +226,9 @@ fn broken_maps_are_errors_and_never_panic() {
         for _ in 0..400 {
             let mut copy = bytes.clone();
             for _ in 0..3 {
-                state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+                state = state
+                    .wrapping_mul(6364136223846793005)
+                    .wrapping_add(1442695040888963407);
                 let at = (state >> 33) as usize % copy.len();
                 copy[at] = (state >> 56) as u8;
             }
@@ -197,12 +237,19 @@ fn broken_maps_are_errors_and_never_panic() {
         }
     }
     assert!(read(&folder.join("none.png")).unwrap_err().contains("cannot be read"));
-    assert!(read(&folder.join("a.bmp")).unwrap_err().contains("unknown file type 'bmp'"));
+    assert!(
+        read(&folder.join("a.bmp"))
+            .unwrap_err()
+            .contains("unknown file type 'bmp'")
+    );
     std::fs::write(folder.join("odd.r16"), [0; 14]).unwrap();
     assert!(read(&folder.join("odd.r16")).unwrap_err().contains("no square"));
     std::fs::write(folder.join("empty.r16"), []).unwrap();
     assert!(read(&folder.join("empty.r16")).is_err());
-    ImageBuffer::<Luma<u8>, _>::from_raw(5, 1, vec![3u8; 5]).unwrap().save_with_format(folder.join("thin.png"), ImageFormat::Png).unwrap();
+    ImageBuffer::<Luma<u8>, _>::from_raw(5, 1, vec![3u8; 5])
+        .unwrap()
+        .save_with_format(folder.join("thin.png"), ImageFormat::Png)
+        .unwrap();
     assert!(read(&folder.join("thin.png")).unwrap_err().contains("at least 2 x 2"));
     save_grey16(&folder.join("void.png"), 2, &[65_535; 4]);
     assert!(read(&folder.join("void.png")).unwrap_err().contains("all samples"));
@@ -217,20 +264,39 @@ fn voids_of_real_tiles_are_filled_without_spikes() {
         return;
     }
     let copies = folder("tiles");
-    for (name, voids) in [("N46E008_1201", 13_000..20_000), ("N49W123_1201", 10_000..20_000)] {
+    for (name, voids) in [("N46E008_1201", 103_743), ("N49W123_1201", 34_926)] {
         let file = tiles.join(format!("{name}.png"));
         let listed = read(&file).unwrap();
-        assert!(voids.contains(&listed.voids), "{name}: {}", listed.voids);
         let spacing = listed.spacing.unwrap();
         assert!(spacing.x < spacing.y && (spacing.y - 92.61).abs() < 1e-9);
-        // The same without the list: most of it is found by itself.
+        // Without the list.
         let copy = copies.join(format!("{name}.png"));
         std::fs::copy(&file, &copy).unwrap();
         let found = read(&copy).unwrap();
-        println!("{name}: {} listed, {} found, range {:?}", listed.voids, found.voids, listed.range);
-        let (a, b) = (samples(&listed.map), samples(&found.map));
-        let far = a.iter().zip(&b).filter(|(a, b)| (**a - **b).abs() > 100.0).count();
-        println!("{far} samples differ by more than 100 m");
+        // A handful of voids at the level of the sea are not to be told from it.
+        assert!(
+            listed.voids <= voids && listed.voids * 200 >= voids * 199,
+            "{}",
+            listed.voids
+        );
+        assert!(
+            found.voids * 100 >= voids * 99 && found.voids <= voids,
+            "{}",
+            found.voids
+        );
+        for map in [&listed.map, &found.map] {
+            let heights = samples(map);
+            let width = map.width() as usize;
+            let pit = |&i: &usize| {
+                heights[i] == 0.0
+                    && voids::neighbours(i, width, width)
+                        .filter(|&n| heights[n] > 100.0)
+                        .count()
+                        > 0
+            };
+            // The steep shores of a fjord.
+            assert!((0..heights.len()).filter(pit).count() < 30, "{name}");
+        }
     }
     std::fs::remove_dir_all(copies).unwrap();
 }

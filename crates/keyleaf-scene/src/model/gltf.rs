@@ -24,20 +24,23 @@ pub(super) struct GltfModel {
 }
 
 /// Reads a glTF or GLB file from its bytes; buffers and pictures are looked for beside `file`.
-pub(super) fn read(
-    file: &Path,
-    bytes: &[u8],
-    notes: &mut Vec<Note>,
-) -> Result<GltfModel, ImportError> {
+pub(super) fn read(file: &Path, bytes: &[u8], notes: &mut Vec<Note>) -> Result<GltfModel, ImportError> {
     let data = GltfData::read(file, bytes, notes)?;
     let document = &data.document;
     let Some(scene) = document.default_scene().or_else(|| document.scenes().next()) else {
         return Err(ImportError::empty(file, "the file has no scene"));
     };
     if document.skins().next().is_some() || document.animations().next().is_some() {
-        notes.push(Note::note(file, "skins and animations are not read: the model is in its rest pose"));
+        notes.push(Note::remark(
+            file,
+            "skins and animations are not read: the model is in its rest pose",
+        ));
     }
-    let mut builder = Builder { data: &data, soup: Soup::default(), lacks_normals: false };
+    let mut builder = Builder {
+        data: &data,
+        soup: Soup::default(),
+        lacks_normals: false,
+    };
     // An explicit stack and a mark: a file may name a node twice, or a node as its own ancestor.
     let mut seen = vec![false; document.nodes().len()];
     let mut open: Vec<_> = scene.nodes().map(|node| (node, DMat4::IDENTITY)).collect();
@@ -48,21 +51,30 @@ pub(super) fn read(
             return Err(ImportError::malformed(file, part("node", node.index()), reason));
         }
         let matrix = parent * matrix_of(node.transform());
-        check_finite(file, || part("node", node.index()), "transform", &matrix.to_cols_array())?;
+        check_finite(
+            file,
+            || part("node", node.index()),
+            "transform",
+            &matrix.to_cols_array(),
+        )?;
         if let Some(mesh) = node.mesh() {
             for primitive in mesh.primitives() {
-                let place = || {
-                    FilePlace::Part(format!("mesh {}, primitive {}", mesh.index(), primitive.index()))
-                };
+                let place = || FilePlace::Part(format!("mesh {}, primitive {}", mesh.index(), primitive.index()));
                 builder.primitive(&primitive, &place, matrix, notes)?;
             }
         }
-        open.extend(node.children().map(|child| (child, matrix)).collect::<Vec<_>>().into_iter().rev());
+        open.extend(
+            node.children()
+                .map(|child| (child, matrix))
+                .collect::<Vec<_>>()
+                .into_iter()
+                .rev(),
+        );
     }
     let mut soup = builder.soup;
     if builder.lacks_normals && !soup.normals.is_empty() {
         soup.normals.clear();
-        notes.push(Note::note(file, "normals are ignored: not all meshes have them"));
+        notes.push(Note::remark(file, "normals are ignored: not all meshes have them"));
     }
     let materials = materials(&data, &soup, notes)?;
     Ok(GltfModel { soup, materials })
@@ -70,13 +82,18 @@ pub(super) fn read(
 
 fn matrix_of(transform: Transform) -> DMat4 {
     match transform {
-        Transform::Matrix { matrix } => {
-            DMat4::from_cols_array_2d(&matrix.map(|column| column.map(f64::from)))
-        }
-        Transform::Decomposed { translation, rotation, scale } => {
+        Transform::Matrix { matrix } => DMat4::from_cols_array_2d(&matrix.map(|column| column.map(f64::from))),
+        Transform::Decomposed {
+            translation,
+            rotation,
+            scale,
+        } => {
             let rotation = DQuat::from_array(rotation.map(f64::from));
-            let rotation =
-                if rotation.length() > 0.0 { rotation.normalize() } else { DQuat::IDENTITY };
+            let rotation = if rotation.length() > 0.0 {
+                rotation.normalize()
+            } else {
+                DQuat::IDENTITY
+            };
             DMat4::from_scale_rotation_translation(
                 Vec3::from(scale).as_dvec3(),
                 rotation,
@@ -104,7 +121,7 @@ impl Builder<'_> {
         let file = self.data.file;
         let mode = primitive.mode();
         if !matches!(mode, Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
-            notes.push(Note::note(file, format!("{}points and lines are not read", place())));
+            notes.push(Note::remark(file, format!("{}points and lines are not read", place())));
             return Ok(());
         }
         let accessor = |semantic: Semantic| primitive.get(&semantic).map(|a| a.index());
@@ -125,7 +142,9 @@ impl Builder<'_> {
             .flat_map(|&[a, b, c]| if mirrored { [a, c, b] } else { [a, b, c] })
             .collect();
         let attribute = |semantic, fill: [f64; 4]| -> Result<Option<Vec<[f64; 4]>>, ImportError> {
-            let Some(index) = accessor(semantic) else { return Ok(None) };
+            let Some(index) = accessor(semantic) else {
+                return Ok(None);
+            };
             let values = self.data.vectors::<4>(index, fill, place)?;
             if values.len() != positions.len() {
                 let reason = "its attributes have different counts";
@@ -146,18 +165,40 @@ impl Builder<'_> {
         let count = before + corners.len();
         let at = |values: &[[f64; 4]], corner: &u32| values[*corner as usize];
         // v = 0 is the top of the picture in glTF, and its bottom here.
-        append(&mut self.soup.uvs, before, count, [0.0; 2], &uvs, &corners, |values, c| {
-            let [u, v, ..] = at(values, c);
-            [u as f32, (1.0 - v) as f32]
-        });
-        append(&mut self.soup.colours, before, count, [1.0; 4], &colours, &corners, |values, c| {
-            at(values, c).map(|channel| channel as f32)
-        });
+        append(
+            &mut self.soup.uvs,
+            before,
+            count,
+            [0.0; 2],
+            &uvs,
+            &corners,
+            |values, c| {
+                let [u, v, ..] = at(values, c);
+                [u as f32, (1.0 - v) as f32]
+            },
+        );
+        append(
+            &mut self.soup.colours,
+            before,
+            count,
+            [1.0; 4],
+            &colours,
+            &corners,
+            |values, c| at(values, c).map(|channel| channel as f32),
+        );
         let normal_matrix = DMat3::from_mat4(matrix).inverse().transpose();
-        append(&mut self.soup.normals, before, count, [0.0; 3], &normals, &corners, |values, c| {
-            let [x, y, z, _] = at(values, c);
-            unit(normal_matrix * DVec3::new(x, y, z))
-        });
+        append(
+            &mut self.soup.normals,
+            before,
+            count,
+            [0.0; 3],
+            &normals,
+            &corners,
+            |values, c| {
+                let [x, y, z, _] = at(values, c);
+                unit(normal_matrix * DVec3::new(x, y, z))
+            },
+        );
         self.lacks_normals |= normals.is_none() && !corners.is_empty();
 
         let material = primitive.material().index().map_or(0, |i| i + 1) as u32;
@@ -184,13 +225,15 @@ impl Builder<'_> {
             Mode::TriangleStrip => indices
                 .windows(3)
                 .enumerate()
-                .map(|(i, w)| if i % 2 == 0 { [w[0], w[1], w[2]] } else { [w[1], w[0], w[2]] })
+                .map(|(i, w)| {
+                    if i % 2 == 0 {
+                        [w[0], w[1], w[2]]
+                    } else {
+                        [w[1], w[0], w[2]]
+                    }
+                })
                 .collect(),
-            Mode::TriangleFan => indices
-                .windows(2)
-                .skip(1)
-                .map(|w| [indices[0], w[0], w[1]])
-                .collect(),
+            Mode::TriangleFan => indices.windows(2).skip(1).map(|w| [indices[0], w[0], w[1]]).collect(),
             _ if indices.len() % 3 != 0 => {
                 let reason = format!("{} indices are no whole number of triangles", indices.len());
                 return Err(ImportError::malformed(self.data.file, place(), reason));
@@ -219,11 +262,7 @@ fn append<T: Copy>(
 }
 
 /// Material 0 is glTF's default material; material i + 1 is the file's i-th. Only those in use are decoded.
-fn materials(
-    data: &GltfData<'_>,
-    soup: &Soup,
-    notes: &mut Vec<Note>,
-) -> Result<Vec<SurfaceMaterial>, ImportError> {
+fn materials(data: &GltfData<'_>, soup: &Soup, notes: &mut Vec<Note>) -> Result<Vec<SurfaceMaterial>, ImportError> {
     let mut materials = vec![SurfaceMaterial::default()];
     for (index, material) in data.document.materials().enumerate() {
         let pbr = material.pbr_metallic_roughness();

@@ -47,11 +47,7 @@ pub(super) struct GltfData<'a> {
 
 impl<'a> GltfData<'a> {
     /// Parses the document and reads its buffers.
-    pub fn read(
-        file: &'a Path,
-        bytes: &[u8],
-        notes: &mut Vec<Note>,
-    ) -> Result<Self, ImportError> {
+    pub fn read(file: &'a Path, bytes: &[u8], notes: &mut Vec<Note>) -> Result<Self, ImportError> {
         let malformed = |reason: String| ImportError::malformed(file, FilePlace::Whole, reason);
         let (json, mut blob) = if bytes.starts_with(b"glTF") {
             let declared = bytes.get(8..12).and_then(|b| b.try_into().ok()).map(u32::from_le_bytes);
@@ -67,24 +63,21 @@ impl<'a> GltfData<'a> {
         } else {
             (bytes.to_vec(), None)
         };
-        let mut root: gltf::json::Root =
-            gltf::json::deserialize::from_slice(&json).map_err(|error| {
-                let place = if blob.is_some() || error.line() == 0 {
-                    FilePlace::Whole
-                } else {
-                    FilePlace::Line(error.line())
-                };
-                ImportError::malformed(file, place, format!("not a glTF document: {error}"))
-            })?;
+        let mut root: gltf::json::Root = gltf::json::deserialize::from_slice(&json).map_err(|error| {
+            let place = if blob.is_some() || error.line() == 0 {
+                FilePlace::Whole
+            } else {
+                FilePlace::Line(error.line())
+            };
+            ImportError::malformed(file, place, format!("not a glTF document: {error}"))
+        })?;
         if root.extensions_used.iter().any(|e| e == "KHR_texture_transform") {
             notes.push(Note::warning(file, "KHR_texture_transform is not read"));
         }
-        root.extensions_required.retain(|e| {
-            !HARMLESS_EXTENSIONS.contains(&e.as_str()) && e != "KHR_texture_transform"
-        });
+        root.extensions_required
+            .retain(|e| !HARMLESS_EXTENSIONS.contains(&e.as_str()) && e != "KHR_texture_transform");
         if let Some(extension) = root.extensions_required.first() {
-            let reason =
-                format!("the required extension {extension} is not read; export without it");
+            let reason = format!("the required extension {extension} is not read; export without it");
             return Err(ImportError::unsupported(file, FilePlace::Whole, reason));
         }
         // The crate's validation takes this for granted.
@@ -102,8 +95,8 @@ impl<'a> GltfData<'a> {
                 count: root.accessors.len(),
             });
         }
-        let document = Document::from_json(root)
-            .map_err(|error| malformed(format!("not a valid glTF document: {error}")))?;
+        let document =
+            Document::from_json(root).map_err(|error| malformed(format!("not a valid glTF document: {error}")))?;
         let mut buffers = Vec::new();
         for (index, buffer) in document.as_json().buffers.iter().enumerate() {
             let bytes = match &buffer.uri {
@@ -120,7 +113,12 @@ impl<'a> GltfData<'a> {
             }
             buffers.push(bytes);
         }
-        Ok(Self { file, document, buffers, pictures: RefCell::default() })
+        Ok(Self {
+            file,
+            document,
+            buffers,
+            pictures: RefCell::default(),
+        })
     }
 
     /// The bytes of a view.
@@ -185,9 +183,7 @@ impl<'a> GltfData<'a> {
             .accessors
             .get(index)
             .ok_or_else(|| malformed("an accessor is missing"))?;
-        let (Checked::Valid(component), Checked::Valid(kind)) =
-            (accessor.component_type, accessor.type_)
-        else {
+        let (Checked::Valid(component), Checked::Valid(kind)) = (accessor.component_type, accessor.type_) else {
             return Err(malformed("an accessor has an unknown type"));
         };
         let width = match kind {
@@ -246,14 +242,12 @@ impl<'a> GltfData<'a> {
     }
 
     /// An accessor as indices, all below `count`.
-    pub fn indices(
-        &self,
-        index: usize,
-        count: usize,
-        place: &dyn Fn() -> FilePlace,
-    ) -> Result<Vec<u32>, ImportError> {
+    pub fn indices(&self, index: usize, count: usize, place: &dyn Fn() -> FilePlace) -> Result<Vec<u32>, ImportError> {
         let vectors = self.vectors::<1>(index, [0.0], place)?;
-        match vectors.iter().find(|[i]| !(*i >= 0.0 && *i < count as f64 && i.fract() == 0.0)) {
+        match vectors
+            .iter()
+            .find(|[i]| !(*i >= 0.0 && *i < count as f64 && i.fract() == 0.0))
+        {
             None => Ok(vectors.into_iter().map(|[i]| i as u32).collect()),
             Some(&[index]) => Err(ImportError::IndexOutOfRange {
                 file: self.file.to_path_buf(),
@@ -266,20 +260,14 @@ impl<'a> GltfData<'a> {
     }
 
     /// A picture of the document, decoded once.
-    pub fn picture(
-        &self,
-        index: usize,
-        notes: &mut Vec<Note>,
-    ) -> Result<Arc<ColourTexture>, ImportError> {
+    pub fn picture(&self, index: usize, notes: &mut Vec<Note>) -> Result<Arc<ColourTexture>, ImportError> {
         if let Some(done) = self.pictures.borrow().get(&index) {
             return Ok(done.clone());
         }
         let place = part("image", index);
         let image = self.document.as_json().images.get(index);
         let picture = match image.map(|image| (&image.buffer_view, &image.uri)) {
-            Some((Some(view), _)) => {
-                ColourTexture::decode(self.file, &place, self.view(view.value())?.0)?
-            }
+            Some((Some(view), _)) => ColourTexture::decode(self.file, &place, self.view(view.value())?.0)?,
             Some((None, Some(uri))) => {
                 let bytes = resource(self.file, place.clone(), uri)?;
                 ColourTexture::decode(self.file, &place, &bytes)?
@@ -287,7 +275,11 @@ impl<'a> GltfData<'a> {
             _ => {
                 let text = format!("{place}the picture has no data; it is drawn white");
                 notes.push(Note::warning(self.file, text));
-                ColourTexture { width: 1, height: 1, rgba: vec![255; 4] }
+                ColourTexture {
+                    width: 1,
+                    height: 1,
+                    rgba: vec![255; 4],
+                }
             }
         };
         let picture = Arc::new(picture);

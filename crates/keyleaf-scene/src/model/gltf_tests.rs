@@ -7,7 +7,13 @@ fn base64(bytes: &[u8]) -> String {
     const DIGITS: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let digits = |chunk: &[u8]| {
         let word = chunk.iter().fold(0, |word, b| word << 8 | u32::from(*b)) << (8 * (3 - chunk.len()));
-        let digit = |i: usize| if i > chunk.len() { '=' } else { DIGITS[(word >> (18 - 6 * i)) as usize & 63] as char };
+        let digit = |i: usize| {
+            if i > chunk.len() {
+                '='
+            } else {
+                DIGITS[(word >> (18 - 6 * i)) as usize & 63] as char
+            }
+        };
         (0..4).map(digit).collect::<String>()
     };
     bytes.chunks(3).map(digits).collect()
@@ -23,9 +29,11 @@ fn buffer() -> Vec<u8> {
     [0u16, 1, 2, 0, 2, 3].iter().for_each(|i| bytes.extend(i.to_le_bytes()));
     bytes.resize(84, 0);
     let mut png = std::io::Cursor::new(Vec::new());
-    image::RgbaImage::from_pixel(1, 1, image::Rgba([9, 8, 7, 255])).write_to(&mut png, image::ImageFormat::Png).unwrap();
+    image::RgbaImage::from_pixel(1, 1, image::Rgba([9, 8, 7, 255]))
+        .write_to(&mut png, image::ImageFormat::Png)
+        .unwrap();
     bytes.extend(png.into_inner());
-    while bytes.len() % 4 != 0 {
+    while !bytes.len().is_multiple_of(4) {
         bytes.push(0);
     }
     bytes
@@ -36,7 +44,12 @@ pub(super) fn json(with_uri: bool) -> String {
     let bytes = buffer();
     let mut uri = String::new();
     if with_uri {
-        write!(uri, r#""uri":"data:application/octet-stream;base64,{}","#, base64(&bytes)).unwrap();
+        write!(
+            uri,
+            r#""uri":"data:application/octet-stream;base64,{}","#,
+            base64(&bytes)
+        )
+        .unwrap();
     }
     let picture = bytes.len() - 84;
     let length = bytes.len();
@@ -63,7 +76,7 @@ pub(super) fn json(with_uri: bool) -> String {
 /// The same as one binary file.
 pub(super) fn glb() -> Vec<u8> {
     let mut json = json(false).into_bytes();
-    while json.len() % 4 != 0 {
+    while !json.len().is_multiple_of(4) {
         json.push(b' ');
     }
     let bin = buffer();
@@ -97,7 +110,10 @@ fn node_transforms_are_baked_and_mirrors_keep_the_outside() {
     assert_eq!(model.material.base_colour, [0.5, 1.0, 1.0, 1.0]);
     assert_eq!(model.material.texture.unwrap().rgba, [9, 8, 7, 255]);
     // v is turned: glTF has it at the top.
-    assert_eq!(model.mesh.corners.uvs.unwrap()[..3], [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0]]);
+    assert_eq!(
+        model.mesh.corners.uvs.unwrap()[..3],
+        [[0.0, 1.0], [1.0, 1.0], [1.0, 0.0]]
+    );
     assert_eq!(model.mesh.corners.colours.unwrap()[..3], [[1.0; 4], [0.0; 4], [0.0; 4]]);
 }
 
@@ -108,19 +124,44 @@ fn errors_name_the_part() {
         assert!(text.contains(from), "{from}");
         parse("a.gltf", text.replace(from, to)).map(|_| ()).unwrap_err()
     };
-    let out = of(r#""byteOffset":64,"byteLength":12"#, r#""byteOffset":64,"byteLength":9999"#);
+    let out = of(
+        r#""byteOffset":64,"byteLength":12"#,
+        r#""byteOffset":64,"byteLength":9999"#,
+    );
     assert!(out.contains("buffer view 2: the view does not lie within"), "{out}");
     assert!(of(r#""count":6"#, r#""count":3000000000"#).contains("does not lie within the view"));
     assert!(of(r#""count":6"#, r#""count":5"#).contains("no whole number of triangles"));
-    assert!(of(r#""bufferView":2,"componentType":5123"#, r#""bufferView":1,"componentType":5121"#)
-        .contains("vertex 255 is out of range: there are 4"));
+    assert!(
+        of(
+            r#""bufferView":2,"componentType":5123"#,
+            r#""bufferView":1,"componentType":5121"#
+        )
+        .contains("vertex 255 is out of range: there are 4")
+    );
     assert!(of(r#""children":[1]"#, r#""children":[0]"#).contains("node 0: the node has two parents"));
     assert!(of(r#""mesh":0,"scale""#, r#""mesh":7,"scale""#).contains("not a valid glTF document"));
     assert!(of(r#""version":"2.0""#, r#""version"#).contains("line 1: not a glTF document"));
     assert!(of("data:application/octet-stream;base64,", "no-such-file.bin?").contains("buffer 0"));
-    assert!(of(r#""uri":"data:application/octet-stream;base64,"#, r#""uri":"%ff","name":""#).contains("not UTF-8"));
-    let draco = of(r#""scene":0"#, r#""scene":0,"extensionsUsed":["KHR_draco_mesh_compression"],"extensionsRequired":["KHR_draco_mesh_compression"]"#);
-    assert!(draco.contains("required extension KHR_draco_mesh_compression"), "{draco}");
+    assert!(
+        of(
+            r#""uri":"data:application/octet-stream;base64,"#,
+            r#""uri":"%ff","name":""#
+        )
+        .contains("not UTF-8")
+    );
+    let draco = of(
+        r#""scene":0"#,
+        r#""scene":0,"extensionsUsed":["KHR_draco_mesh_compression"],"extensionsRequired":["KHR_draco_mesh_compression"]"#,
+    );
+    assert!(
+        draco.contains("required extension KHR_draco_mesh_compression"),
+        "{draco}"
+    );
     let bytes = glb();
-    assert!(parse("a.glb", &bytes[..bytes.len() - 4]).map(|_| ()).unwrap_err().contains("truncated"));
+    assert!(
+        parse("a.glb", &bytes[..bytes.len() - 4])
+            .map(|_| ())
+            .unwrap_err()
+            .contains("truncated")
+    );
 }

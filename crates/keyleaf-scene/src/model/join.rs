@@ -8,9 +8,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use crate::material::SurfaceMaterial;
-use keyleaf_surface::PolygonMesh;
 use crate::note::Note;
 use crate::texture::{ColourTexture, MAX_TEXTURE_SIDE};
+use keyleaf_surface::PolygonMesh;
 
 /// Texels around each packed picture, so that filtering does not see its neighbours.
 const BORDER: u32 = 4;
@@ -28,7 +28,10 @@ struct Tile {
 
 impl Tile {
     fn size(&self) -> [u32; 2] {
-        [self.picture.width * self.repeats[0], self.picture.height * self.repeats[1]]
+        [
+            self.picture.width * self.repeats[0],
+            self.picture.height * self.repeats[1],
+        ]
     }
 }
 
@@ -47,7 +50,10 @@ pub(super) fn join(
     };
     let faces: Vec<SurfaceMaterial> = (0..mesh.faces.len()).map(material).collect();
     let first = faces.first().cloned().unwrap_or_default();
-    if faces.iter().all(|m| m.base_colour == first.base_colour && same_picture(m, &first)) {
+    if faces
+        .iter()
+        .all(|m| m.base_colour == first.base_colour && same_picture(m, &first))
+    {
         return first;
     }
     let ranges = corner_ranges(mesh);
@@ -55,12 +61,18 @@ pub(super) fn join(
     let colours = mesh.corners.colours.get_or_insert_with(|| vec![[1.0; 4]; corner_count]);
     for (range, material) in ranges.iter().zip(&faces) {
         for colour in colours.get_mut(range.clone()).unwrap_or_default() {
-            colour.iter_mut().zip(material.base_colour).for_each(|(c, base)| *c *= base);
+            colour
+                .iter_mut()
+                .zip(material.base_colour)
+                .for_each(|(c, base)| *c *= base);
         }
     }
     let white = SurfaceMaterial::default();
     if faces.iter().all(|m| same_picture(m, &first)) {
-        return SurfaceMaterial { texture: first.texture, ..white };
+        return SurfaceMaterial {
+            texture: first.texture,
+            ..white
+        };
     }
     let Some(uvs) = &mut mesh.corners.uvs else { return white };
     if keep_uvs {
@@ -74,7 +86,10 @@ pub(super) fn join(
                 let text = format!("{stretched} faces repeat a picture more than {MAX_REPEATS} times; it is stretched");
                 notes.push(Note::warning(file, text));
             }
-            SurfaceMaterial { texture: Some(Arc::new(picture)), ..white }
+            SurfaceMaterial {
+                texture: Some(Arc::new(picture)),
+                ..white
+            }
         }
         None => {
             let text = format!("the pictures do not fit one of {MAX_TEXTURE_SIDE} a side and are not drawn");
@@ -117,7 +132,11 @@ fn pack(
     ranges: &[std::ops::Range<usize>],
     faces: &[SurfaceMaterial],
 ) -> Option<(ColourTexture, usize)> {
-    let white = Arc::new(ColourTexture { width: 1, height: 1, rgba: vec![255; 4] });
+    let white = Arc::new(ColourTexture {
+        width: 1,
+        height: 1,
+        rgba: vec![255; 4],
+    });
     let mut tiles: Vec<Tile> = Vec::new();
     let mut tile_of_face = Vec::with_capacity(faces.len());
     let mut stretched = 0;
@@ -125,7 +144,11 @@ fn pack(
         let picture = material.texture.as_ref().unwrap_or(&white);
         let known = tiles.iter().position(|t| Arc::ptr_eq(&t.picture, picture));
         let index = known.unwrap_or_else(|| {
-            tiles.push(Tile { picture: picture.clone(), repeats: [1; 2], at: [0; 2] });
+            tiles.push(Tile {
+                picture: picture.clone(),
+                repeats: [1; 2],
+                at: [0; 2],
+            });
             tiles.len() - 1
         });
         tile_of_face.push(index);
@@ -143,7 +166,11 @@ fn pack(
         let spans = [0, 1].map(|axis| span(&uvs[range.clone()], axis).0);
         for uv in &mut uvs[range.clone()] {
             let [u, v] = [0, 1].map(|i| (uv[i] - spans[i]).clamp(0.0, tile.repeats[i] as f32));
-            let (u, v) = if Arc::ptr_eq(&tile.picture, &white) { (0.5, 0.5) } else { (u, v) };
+            let (u, v) = if Arc::ptr_eq(&tile.picture, &white) {
+                (0.5, 0.5)
+            } else {
+                (u, v)
+            };
             let x = tile.at[0] as f32 + u * tile.picture.width as f32;
             let from_top = (tile.repeats[1] as f32 - v) * tile.picture.height as f32;
             let y = tile.at[1] as f32 + from_top;
@@ -207,7 +234,11 @@ mod tests {
 
     fn picture(width: u32, height: u32, colour: u8) -> Arc<ColourTexture> {
         let texel = |i: u32| [colour, i as u8, 0, 255];
-        Arc::new(ColourTexture { width, height, rgba: (0..width * height).flat_map(texel).collect() })
+        Arc::new(ColourTexture {
+            width,
+            height,
+            rgba: (0..width * height).flat_map(texel).collect(),
+        })
     }
 
     /// The texel under a texture coordinate.
@@ -225,16 +256,30 @@ mod tests {
             base_colour: [grey, grey, grey, 1.0],
             texture: texture.cloned(),
         };
-        let materials = [material(Some(&red), 0.5), material(Some(&blue), 1.0), material(None, 0.25)];
+        let materials = [
+            material(Some(&red), 0.5),
+            material(Some(&blue), 1.0),
+            material(None, 0.25),
+        ];
         let uvs = vec![
-            [0.1, 0.1], [0.9, 0.1], [0.6, 0.8], // within the picture
-            [2.1, -0.9], [2.9, -0.9], [4.65, -0.33], // moved and repeated
-            [0.0, 0.0], [1.0, 0.0], [9.0, 1.0],
+            [0.1, 0.1],
+            [0.9, 0.1],
+            [0.6, 0.8], // within the picture
+            [2.1, -0.9],
+            [2.9, -0.9],
+            [4.65, -0.33], // moved and repeated
+            [0.0, 0.0],
+            [1.0, 0.0],
+            [9.0, 1.0],
         ];
         let mut mesh = PolygonMesh {
             positions: vec![glam::DVec3::ZERO; 9],
             faces: [[0, 1, 2], [3, 4, 5], [6, 7, 8]].into_iter().collect(),
-            corners: CornerAttributes { uvs: Some(uvs.clone()), normals: None, colours: None },
+            corners: CornerAttributes {
+                uvs: Some(uvs.clone()),
+                normals: None,
+                colours: None,
+            },
         };
         let mut notes = Vec::new();
         let joint = join(Path::new("m"), &mut mesh, &[0, 1, 2], &materials, false, &mut notes);

@@ -90,7 +90,13 @@ fn decode(file: &Path, bytes: &[u8], options: &ModelOptions) -> Result<Model, Im
     };
     let welded = weld(file, &soup, &mut notes)?;
     let mut mesh = welded.mesh;
-    let material =
-        join::join(file, &mut mesh, &welded.materials, &materials, options.keep_uvs, &mut notes);
+    let material = join::join(
+        file,
+        &mut mesh,
+        &welded.materials,
+        &materials,
+        options.keep_uvs,
+        &mut notes,
+    );
     Ok(Model { mesh, material, notes })
 }

@@ -45,12 +45,7 @@ pub(super) fn read_libraries(
     materials
 }
 
-fn read(
-    file: &Path,
-    text: &str,
-    materials: &mut HashMap<String, SurfaceMaterial>,
-    notes: &mut Vec<Note>,
-) {
+fn read(file: &Path, text: &str, materials: &mut HashMap<String, SurfaceMaterial>, notes: &mut Vec<Note>) {
     let folder = file.parent().unwrap_or(Path::new(""));
     let mut name = String::new();
     for line in text.lines() {
@@ -61,11 +56,12 @@ fn read(
             name = rest.to_owned();
             materials.insert(name.clone(), SurfaceMaterial::default());
         }
-        let Some(material) = materials.get_mut(&name) else { continue };
+        let Some(material) = materials.get_mut(&name) else {
+            continue;
+        };
         match keyword {
             "Kd" => {
-                let values: Vec<f32> =
-                    rest.split_whitespace().map_while(|w| w.parse().ok()).collect();
+                let values: Vec<f32> = rest.split_whitespace().map_while(|w| w.parse().ok()).collect();
                 // `Kd r` alone means grey.
                 let channel = |i: usize| values.get(i).or(values.first()).copied();
                 if let (Some(r), Some(g), Some(b)) = (channel(0), channel(1), channel(2)) {
@@ -93,10 +89,14 @@ fn read(
 /// The file name after the options of a map statement; it may hold spaces.
 fn picture_name(mut rest: &str) -> &str {
     while let Some((option, after)) = rest.split_once(char::is_whitespace) {
-        let Some(&(_, most)) = OPTIONS.iter().find(|(name, _)| *name == option) else { break };
+        let Some(&(_, most)) = OPTIONS.iter().find(|(name, _)| *name == option) else {
+            break;
+        };
         rest = after.trim_start();
         for taken in 0..most {
-            let Some((word, after)) = rest.split_once(char::is_whitespace) else { break };
+            let Some((word, after)) = rest.split_once(char::is_whitespace) else {
+                break;
+            };
             if taken > 0 && most == 3 && word.parse::<f64>().is_err() {
                 break;
             }

@@ -71,7 +71,11 @@ pub(super) fn read(file: &Path, bytes: &[u8], notes: &mut Vec<Note>) -> Result<O
     }
     if !joined.is_empty() {
         let place = FilePlace::Line(text.lines().count());
-        return Err(ImportError::malformed(file, place, "the last line ends in a continuation '\\'"));
+        return Err(ImportError::malformed(
+            file,
+            place,
+            "the last line ends in a continuation '\\'",
+        ));
     }
     reader.finish(file, notes)
 }
@@ -187,14 +191,20 @@ impl Reader {
         let libraries = mtl::read_libraries(file, &self.libraries, notes);
         let missing = |name: &String| !name.is_empty() && !libraries.contains_key(name);
         for name in self.material_names.iter().filter(|name| missing(name)) {
-            notes.push(Note::warning(file, format!("material '{name}' is in no material library")));
+            notes.push(Note::warning(
+                file,
+                format!("material '{name}' is in no material library"),
+            ));
         }
         let materials = self
             .material_names
             .iter()
             .map(|name| libraries.get(name).cloned().unwrap_or_default())
             .collect();
-        Ok(Obj { soup: self.soup, materials })
+        Ok(Obj {
+            soup: self.soup,
+            materials,
+        })
     }
 
     /// Turns the indices of attributes into attributes of the corners.
@@ -204,7 +214,10 @@ impl Reader {
         let corners = self.soup.corners.len();
         let (with_uv, with_normal) = (named(&self.corner_uv), named(&self.corner_normal));
         if with_uv > 0 {
-            let uvs = self.corner_uv.iter().map(|&i| lookup(i).map_or([0.0; 2], |i| self.uvs[i]));
+            let uvs = self
+                .corner_uv
+                .iter()
+                .map(|&i| lookup(i).map_or([0.0; 2], |i| self.uvs[i]));
             self.soup.uvs = uvs.collect();
         }
         if with_normal == corners {
@@ -212,7 +225,7 @@ impl Reader {
             self.soup.normals = normals.collect();
         } else if with_normal > 0 {
             let text = "normals are ignored: not all corners have one";
-            notes.push(Note::note(file, text));
+            notes.push(Note::remark(file, text));
         }
         if self.colours.iter().any(Option::is_some) {
             let colour = |&v: &u32| {
@@ -255,19 +268,17 @@ fn numbers<'a, const N: usize>(
 }
 
 /// A 1-based or, if negative, backward index as a 0-based one.
-fn index(
-    file: &Path,
-    line: usize,
-    what: &'static str,
-    text: &str,
-    count: usize,
-) -> Result<u32, ImportError> {
+fn index(file: &Path, line: usize, what: &'static str, text: &str, count: usize) -> Result<u32, ImportError> {
     let place = FilePlace::Line(line);
     let Ok(index) = text.parse::<i64>() else {
         let reason = format!("'{text}' is no {what} index");
         return Err(ImportError::malformed(file, place, reason));
     };
-    let from_start = if index > 0 { index - 1 } else { index.saturating_add(count as i64) };
+    let from_start = if index > 0 {
+        index - 1
+    } else {
+        index.saturating_add(count as i64)
+    };
     if index == 0 || from_start < 0 || from_start >= count as i64 {
         return Err(ImportError::IndexOutOfRange {
             file: file.to_path_buf(),

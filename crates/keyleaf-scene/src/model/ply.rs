@@ -43,7 +43,10 @@ struct VertexAttributes {
 pub(super) fn read(file: &Path, bytes: &[u8], notes: &mut Vec<Note>) -> Result<Soup, ImportError> {
     let (header, body) = Header::read(file, bytes)?;
     let mut values = Values::new(file, &header, body);
-    let mut soup = Soup { states_topology: true, ..Soup::default() };
+    let mut soup = Soup {
+        states_topology: true,
+        ..Soup::default()
+    };
     let mut attributes = VertexAttributes::default();
     let mut seen_vertices = false;
     for element in &header.elements {
@@ -65,7 +68,7 @@ pub(super) fn read(file: &Path, bytes: &[u8], notes: &mut Vec<Note>) -> Result<S
             }
             name => {
                 if element.count > 0 {
-                    notes.push(Note::note(file, format!("element '{name}' is not read")));
+                    notes.push(Note::remark(file, format!("element '{name}' is not read")));
                 }
                 skip(element, &mut values)?;
             }
@@ -116,7 +119,11 @@ fn read_vertices(
                 let value = values.number(property.kind)?;
                 if let Some(column) = column {
                     let is_colour = (6..10).contains(column);
-                    row[*column] = if is_colour { value / property.kind.full_scale() } else { value };
+                    row[*column] = if is_colour {
+                        value / property.kind.full_scale()
+                    } else {
+                        value
+                    };
                 }
             }
         }
@@ -138,12 +145,7 @@ fn read_vertices(
     Ok(())
 }
 
-fn read_faces(
-    file: &Path,
-    element: &Element,
-    values: &mut Values<'_>,
-    soup: &mut Soup,
-) -> Result<(), ImportError> {
+fn read_faces(file: &Path, element: &Element, values: &mut Values<'_>, soup: &mut Soup) -> Result<(), ImportError> {
     let named = |p: &Property, names: &[&str]| p.list.is_some() && names.contains(&p.name.as_str());
     let is_corners = |p: &Property| named(p, &["vertex_indices", "vertex_index"]);
     let is_uvs = |p: &Property| named(p, &["texcoord"]);

@@ -93,8 +93,12 @@ pub(super) struct Header {
 impl Header {
     /// Reads the header; gives it and the bytes after it.
     pub fn read<'a>(file: &Path, bytes: &'a [u8]) -> Result<(Self, &'a [u8]), ImportError> {
-        let mut header =
-            Self { encoding: Encoding::Text, elements: Vec::new(), lines: 0, bytes: 0 };
+        let mut header = Self {
+            encoding: Encoding::Text,
+            elements: Vec::new(),
+            lines: 0,
+            bytes: 0,
+        };
         let mut encoding = None;
         loop {
             let rest = &bytes[header.bytes..];
@@ -110,9 +114,7 @@ impl Header {
             header.lines += 1;
             let text = String::from_utf8_lossy(&rest[..length]);
             let words: Vec<&str> = text.split_ascii_whitespace().collect();
-            let malformed = |reason: String| {
-                ImportError::malformed(file, FilePlace::Line(header.lines), reason)
-            };
+            let malformed = |reason: String| ImportError::malformed(file, FilePlace::Line(header.lines), reason);
             match words.as_slice() {
                 ["ply"] if header.lines == 1 => {}
                 _ if header.lines == 1 => {
@@ -133,11 +135,15 @@ impl Header {
                         .map_err(|_| malformed(format!("'{count}' is no number of elements")))?;
                     let line = header.lines;
                     let name = (*name).to_owned();
-                    header.elements.push(Element { name, count, properties: Vec::new(), line });
+                    header.elements.push(Element {
+                        name,
+                        count,
+                        properties: Vec::new(),
+                        line,
+                    });
                 }
                 ["property", words @ ..] => {
-                    let property = property(words)
-                        .ok_or_else(|| malformed(format!("'{text}' is no property")))?;
+                    let property = property(words).ok_or_else(|| malformed(format!("'{text}' is no property")))?;
                     let Some(element) = header.elements.last_mut() else {
                         return Err(malformed("a property before the first element".into()));
                     };
@@ -147,9 +153,8 @@ impl Header {
                 _ => return Err(malformed(format!("'{text}' is no line of a PLY 1.0 header"))),
             }
         }
-        header.encoding = encoding.ok_or_else(|| {
-            ImportError::malformed(file, FilePlace::Line(header.lines), "the header has no format")
-        })?;
+        header.encoding = encoding
+            .ok_or_else(|| ImportError::malformed(file, FilePlace::Line(header.lines), "the header has no format"))?;
         let body = &bytes[header.bytes..];
         Ok((header, body))
     }
@@ -162,9 +167,11 @@ fn property(words: &[&str]) -> Option<Property> {
             list: Some(Kind::from_name(length)?),
             kind: Kind::from_name(kind)?,
         }),
-        [kind, name] => {
-            Some(Property { name: name.to_owned(), list: None, kind: Kind::from_name(kind)? })
-        }
+        [kind, name] => Some(Property {
+            name: name.to_owned(),
+            list: None,
+            kind: Kind::from_name(kind)?,
+        }),
         _ => None,
     }
 }
@@ -182,7 +189,12 @@ impl<'a> Values<'a> {
     pub fn new(file: &'a Path, header: &Header, body: &'a [u8]) -> Self {
         let text = header.encoding == Encoding::Text;
         let at = if text { header.lines + 1 } else { header.bytes };
-        Self { file, encoding: header.encoding, rest: body, at }
+        Self {
+            file,
+            encoding: header.encoding,
+            rest: body,
+            at,
+        }
     }
 
     /// The line of the next number, if the file has lines.
@@ -222,7 +234,11 @@ impl<'a> Values<'a> {
 
     /// The next number; all types are exact in f64.
     pub fn number(&mut self, kind: Kind) -> Result<f64, ImportError> {
-        if self.encoding == Encoding::Text { self.text_number() } else { self.binary_number(kind) }
+        if self.encoding == Encoding::Text {
+            self.text_number()
+        } else {
+            self.binary_number(kind)
+        }
     }
 
     fn text_number(&mut self) -> Result<f64, ImportError> {
@@ -233,9 +249,9 @@ impl<'a> Values<'a> {
         }
         let (word, rest) = self.rest.split_at(length);
         let word = String::from_utf8_lossy(word);
-        let value = word.parse().map_err(|_| {
-            ImportError::malformed(self.file, self.place(), format!("'{word}' is no number"))
-        })?;
+        let value = word
+            .parse()
+            .map_err(|_| ImportError::malformed(self.file, self.place(), format!("'{word}' is no number")))?;
         self.rest = rest;
         Ok(value)
     }

@@ -19,25 +19,30 @@ const FACET: usize = 50;
 /// Reads an STL file from its bytes.
 pub(super) fn read(file: &Path, bytes: &[u8], notes: &mut Vec<Note>) -> Result<Soup, ImportError> {
     // Binary files may begin with "solid" too: their size gives them away.
-    let declared = bytes.get(80..HEADER).and_then(|b| b.try_into().ok()).map(u32::from_le_bytes);
+    let declared = bytes
+        .get(80..HEADER)
+        .and_then(|b| b.try_into().ok())
+        .map(u32::from_le_bytes);
     let exact = declared.is_some_and(|n| HEADER as u64 + FACET as u64 * u64::from(n) == bytes.len() as u64);
     let start = bytes.trim_ascii_start();
     if !exact && start.len() >= 5 && start[..5].eq_ignore_ascii_case(b"solid") {
         return read_text(file, &String::from_utf8_lossy(bytes));
     }
     let Some(declared) = declared else {
-        let reason = format!("the file ends after {} of the {HEADER} bytes of its header", bytes.len());
-        return Err(ImportError::malformed(file, FilePlace::Byte(bytes.len() as u64), reason));
+        let reason = format!(
+            "the file ends after {} of the {HEADER} bytes of its header",
+            bytes.len()
+        );
+        return Err(ImportError::malformed(
+            file,
+            FilePlace::Byte(bytes.len() as u64),
+            reason,
+        ));
     };
     read_binary(file, &bytes[HEADER..], declared as usize, notes)
 }
 
-fn read_binary(
-    file: &Path,
-    body: &[u8],
-    declared: usize,
-    notes: &mut Vec<Note>,
-) -> Result<Soup, ImportError> {
+fn read_binary(file: &Path, body: &[u8], declared: usize, notes: &mut Vec<Note>) -> Result<Soup, ImportError> {
     let present = body.len() / FACET;
     if present < declared {
         let reason = format!("the header announces {declared} facets, the file ends after {present}");
@@ -45,7 +50,10 @@ fn read_binary(
     }
     if body.len() > declared * FACET {
         let rest = body.len() - declared * FACET;
-        notes.push(Note::note(file, format!("{rest} bytes after the last facet are not read")));
+        notes.push(Note::remark(
+            file,
+            format!("{rest} bytes after the last facet are not read"),
+        ));
     }
     let mut soup = Soup::default();
     for (face, facet) in body.chunks_exact(FACET).take(declared).enumerate() {
@@ -108,12 +116,7 @@ fn read_text(file: &Path, text: &str) -> Result<Soup, ImportError> {
     Ok(soup)
 }
 
-fn push(
-    file: &Path,
-    soup: &mut Soup,
-    place: impl Fn() -> FilePlace,
-    position: [f64; 3],
-) -> Result<(), ImportError> {
+fn push(file: &Path, soup: &mut Soup, place: impl Fn() -> FilePlace, position: [f64; 3]) -> Result<(), ImportError> {
     check_finite(file, place, "position", &position)?;
     soup.corners.push(soup.positions.len() as u32);
     soup.positions.push(DVec3::from(position));

@@ -53,7 +53,10 @@ fn obj_errors_name_the_line() {
 fn non_manifold_edges_and_turned_faces_name_their_lines() {
     let fan = "v 0 0 0\nv 0 0 1\nv 1 0 0\nv 0 1 0\nv -1 0 0\nf 1 2 3\nf 2 1 4\nf 1 2 5\n";
     let message = error("fan.obj", fan);
-    assert!(message.contains("used by 3 faces") && message.contains("line 6, line 7, line 8"), "{message}");
+    assert!(
+        message.contains("used by 3 faces") && message.contains("line 6, line 7, line 8"),
+        "{message}"
+    );
     let turned = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 3 4\n";
     assert!(error("t.obj", turned).contains("line 5, line 6"));
 }
@@ -75,7 +78,8 @@ fn stl_soup_is_welded_to_a_closed_cube() {
             }
             for t in [[0, 1, 2], [0, 2, 3]] {
                 text += "facet normal 0 0 0\nouter loop\n";
-                t.iter().for_each(|&i| text += &format!("vertex {} {} {}\n", quad[i][0], quad[i][1], quad[i][2]));
+                t.iter()
+                    .for_each(|&i| text += &format!("vertex {} {} {}\n", quad[i][0], quad[i][1], quad[i][2]));
                 text += "endloop\nendfacet\n";
             }
         }
@@ -83,7 +87,13 @@ fn stl_soup_is_welded_to_a_closed_cube() {
     text += "facet normal 0 0 0\nouter loop\nvertex 0 0 0\nvertex 0 0 0\nvertex 1 0 0\nendloop\nendfacet\nendsolid\n";
     let model = parse("cube.stl", text).unwrap();
     assert_eq!((model.mesh.positions.len(), model.mesh.faces.len()), (8, 12));
-    assert!(model.mesh.positions.iter().all(|p| p.to_array().iter().all(|c| c.is_sign_positive())));
+    assert!(
+        model
+            .mesh
+            .positions
+            .iter()
+            .all(|p| p.to_array().iter().all(|c| c.is_sign_positive()))
+    );
     let topology = keyleaf_key::Topology::new(8, model.mesh.faces.iter()).unwrap();
     assert!((0..12).all(|face| (0..3).all(|root| topology.twin(face, root).is_some())));
     assert!(said(&model, "are welded") && said(&model, "1 face has fewer than 3"));
@@ -144,7 +154,14 @@ fn binary_ply(big: bool) -> Vec<u8> {
     [7i32, 8].iter().for_each(|i| body.extend(word(i.to_le_bytes())));
     body.push(4);
     [0i32, 1, 2, 3].iter().for_each(|i| body.extend(word(i.to_le_bytes())));
-    ply(if big { "binary_big_endian" } else { "binary_little_endian" }, &body)
+    ply(
+        if big {
+            "binary_big_endian"
+        } else {
+            "binary_little_endian"
+        },
+        &body,
+    )
 }
 
 const PLY_TEXT: &str = "0 0 0 255 0 128\n1 0 0 255 0 128\n1 1 0 255 0 128\n0 1 0.5 255 0 128\n2 7 8\n4 0 1 2 3\n";
@@ -170,7 +187,9 @@ fn ply_errors_name_line_or_byte() {
     assert!(of("1 1 0 255", "1 inf 0 255").contains("vertex 2: position is inf"));
     assert!(error("a.ply", "ply\nformat ascii 1.0\n").contains("line 3: the file ends before 'end_header'"));
     assert!(error("a.ply", "solid").contains("not a PLY file"));
-    let huge = String::from_utf8(ply("ascii", b"0 0 0 1 1 1\n")).unwrap().replace("vertex 4", "vertex 99999999999999");
+    let huge = String::from_utf8(ply("ascii", b"0 0 0 1 1 1\n"))
+        .unwrap()
+        .replace("vertex 4", "vertex 99999999999999");
     assert!(error("a.ply", huge).contains("ends before"));
 }
 
@@ -190,7 +209,9 @@ fn truncated_and_damaged_files_never_panic() {
         // A simple generator: the same damage in every run.
         let mut state = 1u64;
         let mut random = |below: usize| {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            state = state
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
             (state >> 33) as usize % below
         };
         for _ in 0..3000 {
@@ -217,26 +238,49 @@ fn shared() -> Option<PathBuf> {
 #[test]
 fn real_models_agree_with_another_reader() {
     let Some(folder) = shared() else { return };
-    let files = [folder.clone(), folder.join("osd_shapes")].into_iter().flat_map(|f| std::fs::read_dir(f).unwrap());
+    let files = [folder.clone(), folder.join("osd_shapes")]
+        .into_iter()
+        .flat_map(|f| std::fs::read_dir(f).unwrap());
     let mut compared = 0;
     for file in files.map(|f| f.unwrap().path()).filter(|f| extension(f) == "obj") {
         let (models, _) = tobj::load_obj(&file, &tobj::LoadOptions::default()).unwrap();
         let corners: usize = models.iter().map(|m| m.mesh.indices.len()).sum();
         let sum: Vec3 = models
             .iter()
-            .flat_map(|m| m.mesh.indices.iter().map(|&i| Vec3::from_slice(&m.mesh.positions[3 * i as usize..])))
+            .flat_map(|m| {
+                m.mesh
+                    .indices
+                    .iter()
+                    .map(|&i| Vec3::from_slice(&m.mesh.positions[3 * i as usize..]))
+            })
             .sum();
         match read_model(&file, &ModelOptions::default()) {
             Ok(model) if !said(&model, "not convex") => {
-                let own: DVec3 = model.mesh.faces.iter().flatten().map(|&v| model.mesh.positions[v as usize]).sum();
+                let own: DVec3 = model
+                    .mesh
+                    .faces
+                    .iter()
+                    .flatten()
+                    .map(|&v| model.mesh.positions[v as usize])
+                    .sum();
                 assert_eq!(model.mesh.faces.corner_count(), corners, "{}", file.display());
-                assert!((own.as_vec3() - sum).length() < 1e-3 * (1.0 + corners as f32), "{}", file.display());
+                assert!(
+                    (own.as_vec3() - sum).length() < 1e-3 * (1.0 + corners as f32),
+                    "{}",
+                    file.display()
+                );
                 compared += 1;
             }
             Ok(model) => println!("{:?}", model.notes),
             Err(error) => {
                 assert!(error.to_string().contains("used by"), "{error}");
-                assert!(file.to_string_lossy().contains("nonman_edges") || ["loop_val2_interior.obj", "catmark_fan.obj"].iter().any(|f| file.ends_with(f)), "{error}");
+                assert!(
+                    file.to_string_lossy().contains("nonman_edges")
+                        || ["loop_val2_interior.obj", "catmark_fan.obj"]
+                            .iter()
+                            .any(|f| file.ends_with(f)),
+                    "{error}"
+                );
             }
         }
     }

@@ -78,14 +78,23 @@ pub(crate) struct Problem {
 
 impl Problem {
     pub fn new(field: impl Into<String>, problem: impl Into<String>) -> Self {
-        Self { field: field.into(), problem: problem.into() }
+        Self {
+            field: field.into(),
+            problem: problem.into(),
+        }
     }
 
     /// As an error, with the place of the field in the text of the scene.
     pub fn at(self, file: &Path, text: &str) -> SceneError {
         let (line, column) = place_of(&self.field, text).unzip();
         let Self { field, problem } = self;
-        SceneError::Invalid { file: file.to_path_buf(), line, column, field, problem }
+        SceneError::Invalid {
+            file: file.to_path_buf(),
+            line,
+            column,
+            field,
+            problem,
+        }
     }
 }
 
@@ -98,7 +107,13 @@ pub(crate) fn reference(
 ) -> SceneError {
     let (line, column) = place_of(&field, text).unzip();
     let source = source.into();
-    SceneError::Reference { file: file.to_path_buf(), line, column, field, source }
+    SceneError::Reference {
+        file: file.to_path_buf(),
+        line,
+        column,
+        field,
+        source,
+    }
 }
 
 /// Where a field stands in the text of a scene, or, where it is left out, what it would stand in.
@@ -121,14 +136,24 @@ pub(super) fn syntax(file: &Path, text: &str, error: &ron::error::SpannedError) 
     let end = (error.span.end.line, error.span.end.col);
     let (at, field, problem) = match &error.code {
         Error::NoSuchStructField { expected, found, .. } => {
-            let known = fields.iter().find(|f| f.name() == found && f.key.0 <= end.0 && f.end >= start);
+            let known = fields
+                .iter()
+                .find(|f| f.name() == found && f.key.0 <= end.0 && f.end >= start);
             let at = known.map_or(start, |f| f.key);
             let path = known.map_or(String::new(), Field::parent);
-            (at, path, format!("unknown field `{found}`, expected one of {}", listed(expected)))
+            (
+                at,
+                path,
+                format!("unknown field `{found}`, expected one of {}", listed(expected)),
+            )
         }
         Error::NoSuchEnumVariant { expected, found, .. } => {
             let path = innermost(&fields, end);
-            (start, path, format!("unknown choice `{found}`, expected one of {}", listed(expected)))
+            (
+                start,
+                path,
+                format!("unknown choice `{found}`, expected one of {}", listed(expected)),
+            )
         }
         Error::MissingStructField { field, .. } => {
             // The error is found before the closing bracket of the struct that lacks it.
@@ -138,12 +163,26 @@ pub(super) fn syntax(file: &Path, text: &str, error: &ron::error::SpannedError) 
             let at = inside.map_or(start, |f| f.start);
             (at, path, format!("missing field `{field}`"))
         }
-        Error::DuplicateStructField { field, .. } => {
-            (start, innermost(&fields, end), format!("field `{field}` is there twice"))
+        Error::DuplicateStructField { field, .. } => (
+            start,
+            innermost(&fields, end),
+            format!("field `{field}` is there twice"),
+        ),
+        other => {
+            let field = innermost(&fields, end);
+            // RON counts from the end of what came before.
+            let value = fields.iter().find(|f| f.path == field).map_or(start, |f| f.start);
+            let at = if start <= value && value <= end { value } else { start };
+            (at, field, lower_first(&other.to_string()))
         }
-        other => (start, innermost(&fields, end), lower_first(&other.to_string())),
     };
-    SceneError::Syntax { file: file.to_path_buf(), line: at.0, column: at.1, field, problem }
+    SceneError::Syntax {
+        file: file.to_path_buf(),
+        line: at.0,
+        column: at.1,
+        field,
+        problem,
+    }
 }
 
 /// The path of the smallest field around a position.
@@ -156,10 +195,16 @@ fn innermost(fields: &[Field], at: (usize, usize)) -> String {
 }
 
 fn listed(names: &[&str]) -> String {
-    names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+    names
+        .iter()
+        .map(|name| format!("`{name}`"))
+        .collect::<Vec<_>>()
+        .join(", ")
 }
 
 fn lower_first(text: &str) -> String {
     let mut characters = text.chars();
-    characters.next().map_or(String::new(), |c| c.to_lowercase().chain(characters).collect())
+    characters
+        .next()
+        .map_or(String::new(), |c| c.to_lowercase().chain(characters).collect())
 }

@@ -65,6 +65,9 @@ pub struct Fog {
 
 impl Default for Fog {
     fn default() -> Self {
-        Self { distance: 50_000.0, colour: [0.55, 0.66, 0.82] }
+        Self {
+            distance: 50_000.0,
+            colour: [0.55, 0.66, 0.82],
+        }
     }
 }

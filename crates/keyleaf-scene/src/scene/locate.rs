@@ -30,13 +30,19 @@ impl Field {
 
     /// The path of what it stands in.
     pub fn parent(&self) -> String {
-        self.path.rfind(['.', '[']).map_or(String::new(), |end| self.path[..end].to_owned())
+        self.path
+            .rfind(['.', '['])
+            .map_or(String::new(), |end| self.path[..end].to_owned())
     }
 }
 
 /// ` in <field>: ` for an error message, or nothing.
 pub(super) fn prefix(field: &str) -> String {
-    if field.is_empty() { String::new() } else { format!("{field}: ") }
+    if field.is_empty() {
+        String::new()
+    } else {
+        format!("{field}: ")
+    }
 }
 
 /// `line:column:` for an error message, or nothing.
@@ -52,8 +58,12 @@ const MAX_DEPTH: usize = 64;
 
 /// All fields of a text, in the order in which their values end.
 pub(super) fn fields(text: &str) -> Vec<Field> {
-    let mut walker =
-        Walker { rest: text.chars().collect(), at: 0, position: (1, 1), fields: Vec::new() };
+    let mut walker = Walker {
+        rest: text.chars().collect(),
+        at: 0,
+        position: (1, 1),
+        fields: Vec::new(),
+    };
     walker.skip_space();
     // An attribute such as #![enable(implicit_some)].
     while walker.peek() == Some('#') {
@@ -86,8 +96,11 @@ impl Walker {
     fn next(&mut self) -> Option<char> {
         let c = self.peek()?;
         self.at += 1;
-        self.position =
-            if c == '\n' { (self.position.0 + 1, 1) } else { (self.position.0, self.position.1 + 1) };
+        self.position = if c == '\n' {
+            (self.position.0 + 1, 1)
+        } else {
+            (self.position.0, self.position.1 + 1)
+        };
         Some(c)
     }
 
@@ -127,7 +140,10 @@ impl Walker {
 
     fn word(&mut self) -> String {
         let mut word = String::new();
-        while let Some(c) = self.peek().filter(|c| c.is_alphanumeric() || matches!(c, '_' | '.' | '+' | '-')) {
+        while let Some(c) = self
+            .peek()
+            .filter(|c| c.is_alphanumeric() || matches!(c, '_' | '.' | '+' | '-'))
+        {
             word.push(c);
             self.next();
         }
@@ -173,7 +189,13 @@ impl Walker {
         self.skip_space();
         let start = self.position;
         let is_struct = self.inner_value(path, depth);
-        let field = Field { path: path.to_owned(), key, start, end: self.position, is_struct };
+        let field = Field {
+            path: path.to_owned(),
+            key,
+            start,
+            end: self.position,
+            is_struct,
+        };
         self.fields.push(field);
     }
 
@@ -206,7 +228,11 @@ impl Walker {
             return false;
         }
         self.skip_space();
-        if self.peek() == Some('(') { self.group(path, depth) } else { false }
+        if self.peek() == Some('(') {
+            self.group(path, depth)
+        } else {
+            false
+        }
     }
 
     fn list(&mut self, path: &str, depth: usize) {

@@ -52,9 +52,8 @@ pub(crate) use error::{Problem, reference};
 pub use light::{Effect, Fog, Light};
 pub use settings::{Culling, GuardBand, Metric, Settings, SettingsOverrides};
 pub use surface::{
-    Colouring, DisplacedSource, DisplacementHeight, HeightFieldSource, Interpolation, Material,
-    NoiseHeight, Shape, Source, SurfaceEntry, TerrainColours, TerrainSource, TextureHeight,
-    Transform,
+    Colouring, DisplacedSource, DisplacementHeight, HeightFieldSource, Interpolation, Material, NoiseHeight, Shape,
+    Source, SurfaceEntry, TerrainColours, TerrainSource, TextureHeight, Transform,
 };
 
 /// A scene file.
@@ -91,8 +90,10 @@ impl Scene {
     /// # Errors
     /// [`SceneError`]: the file cannot be read, is no scene, or holds a value out of range.
     pub fn read(file: &Path) -> Result<Self, SceneError> {
-        let text = std::fs::read_to_string(file)
-            .map_err(|source| SceneError::Read { file: file.to_path_buf(), source })?;
+        let text = std::fs::read_to_string(file).map_err(|source| SceneError::Read {
+            file: file.to_path_buf(),
+            source,
+        })?;
         Self::from_ron(&text, file)
     }
 
@@ -101,8 +102,9 @@ impl Scene {
     /// # Errors
     /// [`SceneError`]: the text is no scene, or holds a value out of range.
     pub fn from_ron(text: &str, file: &Path) -> Result<Self, SceneError> {
-        let scene: Self =
-            options().from_str(text).map_err(|error| error::syntax(file, text, &error))?;
+        let scene: Self = options()
+            .from_str(text)
+            .map_err(|error| error::syntax(file, text, &error))?;
         validate::validate(&scene).map_err(|problem| problem.at(file, text))?;
         Ok(scene)
     }
@@ -115,7 +117,9 @@ impl Scene {
         let pretty = ron::ser::PrettyConfig::new().struct_names(false).compact_arrays(false);
         options()
             .to_string_pretty(self, pretty)
-            .map_err(|error| SceneError::Write { reason: error.to_string() })
+            .map_err(|error| SceneError::Write {
+                reason: error.to_string(),
+            })
     }
 
     /// Checks a scene that was made in code, as [`Scene::from_ron`] checks one from a file.

@@ -10,12 +10,12 @@ pub struct Settings {
     pub metric: Metric,
     /// k: every leaf is drawn as 4^k triangles; 0..=6, default 2.
     pub base_grid: u32,
-    /// The most leaves of all surfaces together, at least the number of roots; default 262144. What does not fit is
-    /// drawn coarser, never left out.
+    /// The most leaves of each surface, at least the number of its roots; default 262144. What does not fit is drawn
+    /// coarser, never left out.
     pub capacity: u32,
     /// Update passes a frame; 1..=64, default 1. More follow a fast camera sooner, at their cost.
     pub settle: u32,
-    /// A number of leaves that a controller aims at by changing the threshold, 1..=capacity; default `None`: the
+    /// A number of leaves a surface that a controller aims at by changing the threshold, 1..=capacity; default `None`: the
     /// threshold is as the metric says.
     pub target_leaves: Option<u32>,
     /// The deepest level of a leaf; 0..=31 - base_grid, default `None`: 31 - base_grid.
@@ -69,10 +69,11 @@ pub enum Metric {
         #[serde(default = "Metric::default_pixels")]
         pixels: f64,
     },
-    /// When the size of a leaf divided by its distance to the eye is above a threshold, whatever the picture's size
-    /// (Khoury 2.1).
+    /// By distance alone, whatever the length of the edge and the picture's size (Khoury 2.1): the level of a leaf is to be
+    /// -log2(distance tan(fov / 2) / (sqrt 2 factor)).
     Distance {
-        /// Leaf size over distance, above 0 and below 1; default 0.05.
+        /// Metres, above 0; doubling it adds a level. Default 10: of the size of the faces times how many levels one wants at
+        /// arm's length.
         #[serde(default = "Metric::default_factor")]
         factor: f64,
     },
@@ -84,13 +85,15 @@ impl Metric {
     }
 
     fn default_factor() -> f64 {
-        0.05
+        10.0
     }
 }
 
 impl Default for Metric {
     fn default() -> Self {
-        Self::Edge { pixels: Self::default_pixels() }
+        Self::Edge {
+            pixels: Self::default_pixels(),
+        }
     }
 }
 
@@ -106,7 +109,10 @@ pub struct GuardBand {
 
 impl Default for GuardBand {
     fn default() -> Self {
-        Self { margin: 0.25, coarsen: 8.0 }
+        Self {
+            margin: 0.25,
+            coarsen: 8.0,
+        }
     }
 }
 

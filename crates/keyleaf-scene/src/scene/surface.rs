@@ -117,17 +117,51 @@ pub struct TerrainSource {
 
 impl Default for TerrainSource {
     fn default() -> Self {
-        let TerrainSettings { extent, height, first_level, octaves, gain, ridged, contrast, seed } =
-            TerrainSettings::default();
-        Self { extent, height, first_level, octaves, gain, ridged, contrast, seed }
+        let TerrainSettings {
+            extent,
+            height,
+            first_level,
+            octaves,
+            gain,
+            ridged,
+            contrast,
+            seed,
+        } = TerrainSettings::default();
+        Self {
+            extent,
+            height,
+            first_level,
+            octaves,
+            gain,
+            ridged,
+            contrast,
+            seed,
+        }
     }
 }
 
 impl From<&TerrainSource> for TerrainSettings {
     fn from(source: &TerrainSource) -> Self {
-        let &TerrainSource { extent, height, first_level, octaves, gain, ridged, contrast, seed } =
-            source;
-        Self { extent, height, first_level, octaves, gain, ridged, contrast, seed }
+        let &TerrainSource {
+            extent,
+            height,
+            first_level,
+            octaves,
+            gain,
+            ridged,
+            contrast,
+            seed,
+        } = source;
+        Self {
+            extent,
+            height,
+            first_level,
+            octaves,
+            gain,
+            ridged,
+            contrast,
+            seed,
+        }
     }
 }
 
@@ -207,7 +241,11 @@ pub struct Transform {
 
 impl Default for Transform {
     fn default() -> Self {
-        Self { translation: [0.0; 3], rotation: [0.0; 3], scale: 1.0 }
+        Self {
+            translation: [0.0; 3],
+            rotation: [0.0; 3],
+            scale: 1.0,
+        }
     }
 }
 
@@ -216,11 +254,7 @@ impl Transform {
     pub fn matrix(&self) -> DMat4 {
         let [x, y, z] = self.rotation.map(f64::to_radians);
         let rotation = DQuat::from_euler(EulerRot::ZYX, z, y, x);
-        DMat4::from_scale_rotation_translation(
-            DVec3::splat(self.scale),
-            rotation,
-            self.translation.into(),
-        )
+        DMat4::from_scale_rotation_translation(DVec3::splat(self.scale), rotation, self.translation.into())
     }
 }
 

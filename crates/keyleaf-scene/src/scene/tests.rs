@@ -62,7 +62,10 @@ fn broken(from: &str, to: &str) -> String {
 fn every_field_is_read_and_written_back() {
     let scene = read(FULL).unwrap();
     assert_eq!(scene.settings.metric, Metric::Edge { pixels: 4.0 });
-    assert_eq!(scene.settings.with(&scene.surfaces[0].settings).metric, Metric::Distance { factor: 0.1 });
+    assert_eq!(
+        scene.settings.with(&scene.surfaces[0].settings).metric,
+        Metric::Distance { factor: 0.1 }
+    );
     assert_eq!(scene.settings.with(&scene.surfaces[0].settings).deepest_level(), 9);
     assert_eq!(scene.effects.len(), 4);
     assert!(scene.paths[0].keys[2].cut && scene.paths[0].looped);
@@ -83,15 +86,31 @@ fn little_is_needed() {
 #[test]
 fn unknown_names_tell_line_column_and_what_was_expected() {
     let error = broken("base_grid: 3", "base_gird: 3");
-    assert!(error.starts_with("s.ron:20:9: settings: unknown field `base_gird`, expected one of `metric`, `base_grid`"), "{error}");
+    assert!(
+        error.starts_with("s.ron:20:9: settings: unknown field `base_gird`, expected one of `metric`, `base_grid`"),
+        "{error}"
+    );
     let error = broken("fov: 60", "fow: 60");
-    assert!(error.starts_with("s.ron:36:63: paths[0].keys[1]: unknown field `fow`, expected one of"), "{error}");
+    assert!(
+        error.starts_with("s.ron:36:63: paths[0].keys[1]: unknown field `fow`, expected one of"),
+        "{error}"
+    );
     let error = broken("Edge(pixels: 4)", "Edges(pixels: 4)");
-    assert!(error.starts_with("s.ron:19:") && error.contains("settings.metric: unknown choice `Edges`, expected one of `Edge`, `Distance`"), "{error}");
+    assert!(
+        error.starts_with("s.ron:19:")
+            && error.contains("settings.metric: unknown choice `Edges`, expected one of `Edge`, `Distance`"),
+        "{error}"
+    );
     let error = broken("path: \"map.png\", ", "");
-    assert!(error.contains("missing field `path`") && error.starts_with("s.ron:13:"), "{error}");
+    assert!(
+        error.contains("missing field `path`") && error.starts_with("s.ron:13:"),
+        "{error}"
+    );
     let error = broken("amplitude: 0.02, ", "");
-    assert!(error.starts_with("s.ron:7:") && error.contains("surfaces[0].surface.height: missing field"), "{error}");
+    assert!(
+        error.starts_with("s.ron:7:") && error.contains("surfaces[0].surface.height: missing field"),
+        "{error}"
+    );
     let error = broken("name: \"front\", ", "");
     assert!(error.contains("cameras[0]: missing field `name`"), "{error}");
 }
@@ -99,11 +118,20 @@ fn unknown_names_tell_line_column_and_what_was_expected() {
 #[test]
 fn wrong_types_and_broken_text_tell_the_field() {
     let error = broken("base_grid: 3", "base_grid: \"three\"");
-    assert!(error.starts_with("s.ron:20:") && error.contains("settings.base_grid: "), "{error}");
+    assert!(
+        error.starts_with("s.ron:20:") && error.contains("settings.base_grid: "),
+        "{error}"
+    );
     let error = broken("base_grid: 3", "base_grid: -3");
-    assert!(error.starts_with("s.ron:20:") && error.contains("settings.base_grid: "), "{error}");
+    assert!(
+        error.starts_with("s.ron:20:") && error.contains("settings.base_grid: "),
+        "{error}"
+    );
     let error = broken("eye: (5, 1, 0)", "eye: (5, 1)");
-    assert!(error.starts_with("s.ron:36:") && error.contains("paths[0].keys[1].eye: "), "{error}");
+    assert!(
+        error.starts_with("s.ron:36:") && error.contains("paths[0].keys[1].eye: "),
+        "{error}"
+    );
     assert!(broken("capacity: 100000", "capacity 100000").starts_with("s.ron:21:"));
     assert!(broken("cut: true", "cut: yes").contains("paths[0].keys[2].cut: "));
     assert!(read("").unwrap_err().starts_with("s.ron:1:1"));
@@ -113,27 +141,75 @@ fn wrong_types_and_broken_text_tell_the_field() {
 #[test]
 fn values_out_of_range_tell_line_and_field() {
     let cases = [
-        ("Edge(pixels: 4)", "Edge(pixels: -4)", "s.ron:19:30: settings.metric.pixels: -4 is not allowed; expected a number above 0"),
-        ("Edge(pixels: 4)", "Edge(pixels: NaN)", "s.ron:19:30: settings.metric.pixels: NaN"),
-        ("factor: 0.1", "factor: 1", "surfaces[0].settings.metric.factor: 1"),
-        ("base_grid: 3", "base_grid: 7", "s.ron:20:20: settings.base_grid: 7 is not allowed; expected a number from 0 to 6"),
+        (
+            "Edge(pixels: 4)",
+            "Edge(pixels: -4)",
+            "s.ron:19:30: settings.metric.pixels: -4 is not allowed; expected a number above 0",
+        ),
+        (
+            "Edge(pixels: 4)",
+            "Edge(pixels: NaN)",
+            "s.ron:19:30: settings.metric.pixels: NaN",
+        ),
+        ("factor: 0.1", "factor: 0", "surfaces[0].settings.metric.factor: 0"),
+        (
+            "base_grid: 3",
+            "base_grid: 7",
+            "s.ron:20:20: settings.base_grid: 7 is not allowed; expected a number from 0 to 6",
+        ),
         ("capacity: 100000", "capacity: 0", "s.ron:21:19: settings.capacity: 0"),
         ("settle: 2", "settle: 0", "settings.settle"),
-        ("target_leaves: 50000", "target_leaves: 500000", "settings.target_leaves: 500000"),
-        ("Some(20)", "29", "s.ron:24:20: settings.max_level: 29 is not allowed; expected a number from 0 to 28"),
+        (
+            "target_leaves: 50000",
+            "target_leaves: 500000",
+            "settings.target_leaves: 500000",
+        ),
+        (
+            "Some(20)",
+            "29",
+            "s.ron:24:20: settings.max_level: 29 is not allowed; expected a number from 0 to 28",
+        ),
         ("coarsen: 4", "coarsen: 0.5", "settings.guard_band.coarsen"),
-        ("fov: 40", "fov: 180", "s.ron:30:72: cameras[0].fov: 180 is not allowed; expected a number above 0 and below 180"),
+        (
+            "fov: 40",
+            "fov: 180",
+            "s.ron:30:72: cameras[0].fov: 180 is not allowed; expected a number above 0 and below 180",
+        ),
         ("near: 0.01", "near: 0", "cameras[0].near"),
-        ("look_at: (0, 1, 0), fov: 40", "look_at: (0, 1, 5), fov: 40", "cameras[0].look_at: it is the same point as eye"),
-        ("time: 2", "time: 3", "paths[0].keys[2].time: 3 is not later than the key before, 3"),
+        (
+            "look_at: (0, 1, 0), fov: 40",
+            "look_at: (0, 1, 5), fov: 40",
+            "cameras[0].look_at: it is the same point as eye",
+        ),
+        (
+            "time: 2",
+            "time: 3",
+            "paths[0].keys[2].time: 3 is not later than the key before, 3",
+        ),
         ("time: 2", "time: inf", "paths[0].keys[1].time: inf"),
         ("scale: 2.5", "scale: 0", "surfaces[0].transform.scale"),
         ("(1, 2, 3)", "(1, NaN, 3)", "surfaces[0].transform.translation: NaN"),
-        ("base_colour: (0.8", "base_colour: (1.8", "surfaces[0].material.base_colour: 1.8"),
-        ("slopes: (20, 40)", "slopes: (40, 20)", "surfaces[1].material.colouring.slopes"),
+        (
+            "base_colour: (0.8",
+            "base_colour: (1.8",
+            "surfaces[0].material.base_colour: 1.8",
+        ),
+        (
+            "slopes: (20, 40)",
+            "slopes: (40, 20)",
+            "surfaces[1].material.colouring.slopes",
+        ),
         ("octaves: 12", "octaves: 90", "surfaces[2].source.octaves: 90"),
-        ("wavelength: 0.3", "wavelength: -1", "surfaces[0].surface.height.wavelength: -1"),
-        ("\"map\"", "\"cow\"", "s.ron:13:19: surfaces[1].name: the name `cow` is there twice"),
+        (
+            "wavelength: 0.3",
+            "wavelength: -1",
+            "surfaces[0].surface.height.wavelength: -1",
+        ),
+        (
+            "\"map\"",
+            "\"cow\"",
+            "s.ron:13:19: surfaces[1].name: the name `cow` is there twice",
+        ),
         ("distance: 3000", "distance: 0", "effects[1].distance"),
         ("LevelTint", "Sky", "s.ron:29:52: effects[3]: the effect is there twice"),
         ("elevation: 20", "elevation: 91", "light.elevation"),
@@ -142,16 +218,27 @@ fn values_out_of_range_tell_line_and_field() {
         let error = broken(from, to);
         assert!(error.contains(expected), "{to}: {error}");
     }
-    let error = broken("surface: Displaced", "surface: Flat, settings: (), material: (), transform: (), name: \"b\", source: Terrain(), surface: Displaced");
+    let error = broken(
+        "surface: Displaced",
+        "surface: Flat, settings: (), material: (), transform: (), name: \"b\", source: Terrain(), surface: Displaced",
+    );
     assert!(error.contains("there twice") || error.contains("field"), "{error}");
 }
 
 #[test]
 fn empty_lists_are_refused() {
-    assert!(read("(surfaces: [])").unwrap_err().contains("1:12: surfaces: a scene needs at least one surface"));
+    assert!(
+        read("(surfaces: [])")
+            .unwrap_err()
+            .contains("1:12: surfaces: a scene needs at least one surface")
+    );
     let error = read("(surfaces: [(name: \"a\", source: Terrain())],\n paths: [(name: \"p\", keys: [])])").unwrap_err();
     assert_eq!(error, "s.ron:2:28: paths[0].keys: a camera path needs at least one key");
-    assert!(read("(surfaces: [(name: \" \", source: Terrain())])").unwrap_err().contains("the name is empty"));
+    assert!(
+        read("(surfaces: [(name: \" \", source: Terrain())])")
+            .unwrap_err()
+            .contains("the name is empty")
+    );
     let moved = "(surfaces: [(name: \"a\", source: Terrain(), surface: Displaced(height: Noise(amplitude: 1, wavelength: 1)))])";
     assert!(read(moved).unwrap_err().contains("only a Mesh can be Displaced"));
 }
@@ -163,7 +250,9 @@ fn damaged_scenes_never_panic() {
     }
     let mut state = 7u64;
     let mut random = |below: usize| {
-        state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        state = state
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
         (state >> 33) as usize % below
     };
     for _ in 0..3000 {
@@ -178,7 +267,11 @@ fn damaged_scenes_never_panic() {
 
 #[test]
 fn rotations_are_about_fixed_axes_in_order() {
-    let transform = Transform { rotation: [90.0, 0.0, 90.0], translation: [0.0, 0.0, 1.0], scale: 2.0 };
+    let transform = Transform {
+        rotation: [90.0, 0.0, 90.0],
+        translation: [0.0, 0.0, 1.0],
+        scale: 2.0,
+    };
     // About X: Y to Z; about Z: Z stays.
     let moved = transform.matrix().transform_point3(DVec3::Y);
     assert!((moved - DVec3::new(0.0, 0.0, 3.0)).length() < 1e-12);
@@ -189,7 +282,14 @@ fn rotations_are_about_fixed_axes_in_order() {
 
 #[test]
 fn the_sun_stands_where_azimuth_and_elevation_say() {
-    let sun = |azimuth, elevation| Light { azimuth, elevation, ..Light::default() }.direction();
+    let sun = |azimuth, elevation| {
+        Light {
+            azimuth,
+            elevation,
+            ..Light::default()
+        }
+        .direction()
+    };
     assert!((sun(0.0, 0.0) - DVec3::NEG_Z).length() < 1e-12);
     assert!((sun(90.0, 0.0) - DVec3::X).length() < 1e-12);
     assert!((sun(33.0, 90.0) - DVec3::Y).length() < 1e-12);

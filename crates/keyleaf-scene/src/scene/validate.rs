@@ -6,8 +6,8 @@ use crate::MAX_COORDINATE;
 
 use super::error::Problem;
 use super::{
-    CameraPath, Colouring, DisplacementHeight, Effect, Light, Material, Metric, PathKey, Scene,
-    Settings, SettingsOverrides, Shape, Source, SurfaceEntry, TerrainSource,
+    CameraPath, Colouring, DisplacementHeight, Effect, Light, Material, Metric, PathKey, Scene, Settings,
+    SettingsOverrides, Shape, Source, SurfaceEntry, TerrainSource,
 };
 
 type Checked = Result<(), Problem>;
@@ -45,7 +45,10 @@ pub(super) fn validate(scene: &Scene) -> Checked {
     check_settings(&scene.settings)?;
     check_light(&scene.light)?;
     for (i, effect) in scene.effects.iter().enumerate() {
-        if scene.effects[..i].iter().any(|e| std::mem::discriminant(e) == std::mem::discriminant(effect)) {
+        if scene.effects[..i]
+            .iter()
+            .any(|e| std::mem::discriminant(e) == std::mem::discriminant(effect))
+        {
             return Err(Problem::new(format!("effects[{i}]"), "the effect is there twice"));
         }
         if let Effect::Fog(fog) = effect {
@@ -58,7 +61,11 @@ pub(super) fn validate(scene: &Scene) -> Checked {
         check_view(&field, camera.eye, camera.look_at, camera.fov)?;
         optional(&format!("{field}.near"), camera.near, positive)?;
     }
-    scene.paths.iter().enumerate().try_for_each(|(i, path)| check_path(&format!("paths[{i}]"), path))
+    scene
+        .paths
+        .iter()
+        .enumerate()
+        .try_for_each(|(i, path)| check_path(&format!("paths[{i}]"), path))
 }
 
 fn finite(field: &str, value: f64) -> Checked {
@@ -74,7 +81,10 @@ fn positive(field: &str, value: f64) -> Checked {
     if value > 0.0 {
         return Ok(());
     }
-    Err(Problem::new(field, format!("{value} is not allowed; expected a number above 0")))
+    Err(Problem::new(
+        field,
+        format!("{value} is not allowed; expected a number above 0"),
+    ))
 }
 
 fn not_zero(field: &str, value: f64) -> Checked {
@@ -114,12 +124,14 @@ fn vector(field: &str, value: [f64; 3]) -> Checked {
 fn colour(field: &str, value: &[f32; 3], most: f32) -> Checked {
     match value.iter().find(|c| !(**c >= 0.0 && **c <= most)) {
         None => Ok(()),
-        Some(c) if most == f32::MAX => {
-            Err(Problem::new(field, format!("{c} is not allowed; expected numbers of at least 0")))
-        }
-        Some(c) => {
-            Err(Problem::new(field, format!("{c} is not allowed; expected numbers from 0 to {most}")))
-        }
+        Some(c) if most == f32::MAX => Err(Problem::new(
+            field,
+            format!("{c} is not allowed; expected numbers of at least 0"),
+        )),
+        Some(c) => Err(Problem::new(
+            field,
+            format!("{c} is not allowed; expected numbers from 0 to {most}"),
+        )),
     }
 }
 
@@ -144,19 +156,26 @@ fn check_settings(settings: &Settings) -> Checked {
     check_max_level("settings.max_level", settings.max_level, settings)?;
     within("settings.guard_band.margin", settings.guard_band.margin, 0.0, 10.0)?;
     finite("settings.guard_band.coarsen", settings.guard_band.coarsen)?;
-    within("settings.guard_band.coarsen", settings.guard_band.coarsen, 1.0, MAX_COORDINATE)
+    within(
+        "settings.guard_band.coarsen",
+        settings.guard_band.coarsen,
+        1.0,
+        MAX_COORDINATE,
+    )
 }
 
 fn check_metric(field: &str, metric: Metric) -> Checked {
     match metric {
         Metric::Edge { pixels } => positive(&format!("{field}.pixels"), pixels),
-        Metric::Distance { factor } => between(&format!("{field}.factor"), factor, 0.0, 1.0),
+        Metric::Distance { factor } => positive(&format!("{field}.factor"), factor),
     }
 }
 
 fn check_max_level(field: &str, level: Option<u32>, settings: &Settings) -> Checked {
     let deepest = keyleaf_key::MAX_LEVEL.saturating_sub(settings.base_grid);
-    optional(field, level, |field, level| within(field, level.into(), 0.0, deepest.into()))
+    optional(field, level, |field, level| {
+        within(field, level.into(), 0.0, deepest.into())
+    })
 }
 
 fn check_light(light: &Light) -> Checked {
@@ -174,7 +193,9 @@ fn check_surface(field: &str, surface: &SurfaceEntry, settings: &Settings) -> Ch
         Source::HeightField(map) => {
             file_name(&format!("{source}.path"), &map.path)?;
             if let Some(spacing) = map.spacing {
-                spacing.into_iter().try_for_each(|s| positive(&format!("{source}.spacing"), s))?;
+                spacing
+                    .into_iter()
+                    .try_for_each(|s| positive(&format!("{source}.spacing"), s))?;
             }
             not_zero(&format!("{source}.scale"), map.scale)?;
             finite(&format!("{source}.offset"), map.offset)?;
@@ -191,7 +212,11 @@ fn check_surface(field: &str, surface: &SurfaceEntry, settings: &Settings) -> Ch
     vector(&format!("{transform}.rotation"), surface.transform.rotation)?;
     positive(&format!("{transform}.scale"), surface.transform.scale)?;
     check_material(&format!("{field}.material"), &surface.material)?;
-    let SettingsOverrides { metric, max_level, culling: _ } = surface.settings;
+    let SettingsOverrides {
+        metric,
+        max_level,
+        culling: _,
+    } = surface.settings;
     optional(&format!("{field}.settings.metric"), metric, check_metric)?;
     check_max_level(&format!("{field}.settings.max_level"), max_level, settings)
 }
@@ -208,7 +233,9 @@ fn check_terrain(field: &str, terrain: &TerrainSource) -> Checked {
 }
 
 fn check_shape(field: &str, surface: &SurfaceEntry) -> Checked {
-    let Shape::Displaced(displaced) = &surface.surface else { return Ok(()) };
+    let Shape::Displaced(displaced) = &surface.surface else {
+        return Ok(());
+    };
     if !matches!(surface.source, Source::Mesh(_)) {
         let problem = "only a Mesh can be Displaced; expected Flat";
         return Err(Problem::new(field, problem));
@@ -236,7 +263,9 @@ fn check_material(field: &str, material: &Material) -> Checked {
     if let Some(texture) = &material.texture {
         file_name(&format!("{field}.texture"), texture)?;
     }
-    let Colouring::Terrain(colours) = &material.colouring else { return Ok(()) };
+    let Colouring::Terrain(colours) = &material.colouring else {
+        return Ok(());
+    };
     let field = format!("{field}.colouring");
     for (name, value) in [
         ("low", colours.low),
@@ -253,12 +282,18 @@ fn check_material(field: &str, material: &Material) -> Checked {
         if low < high {
             return Ok(());
         }
-        Err(Problem::new(field, format!("({low}, {high}): expected the first below the second")))
+        Err(Problem::new(
+            field,
+            format!("({low}, {high}): expected the first below the second"),
+        ))
     };
     optional(&format!("{field}.heights"), colours.heights, ordered)?;
     let slopes = format!("{field}.slopes");
     ordered(&slopes, colours.slopes)?;
-    colours.slopes.into_iter().try_for_each(|s| within(&slopes, s, 0.0, 90.0))
+    colours
+        .slopes
+        .into_iter()
+        .try_for_each(|s| within(&slopes, s, 0.0, 90.0))
 }
 
 fn check_view(field: &str, eye: [f64; 3], look_at: [f64; 3], fov: f64) -> Checked {
@@ -272,10 +307,23 @@ fn check_view(field: &str, eye: [f64; 3], look_at: [f64; 3], fov: f64) -> Checke
 
 fn check_path(field: &str, path: &CameraPath) -> Checked {
     if path.keys.is_empty() {
-        return Err(Problem::new(format!("{field}.keys"), "a camera path needs at least one key"));
+        return Err(Problem::new(
+            format!("{field}.keys"),
+            "a camera path needs at least one key",
+        ));
     }
     optional(&format!("{field}.near"), path.near, positive)?;
-    for (i, PathKey { time, eye, look_at, fov, .. }) in path.keys.iter().enumerate() {
+    for (
+        i,
+        PathKey {
+            time,
+            eye,
+            look_at,
+            fov,
+            ..
+        },
+    ) in path.keys.iter().enumerate()
+    {
         let key = format!("{field}.keys[{i}]");
         finite(&format!("{key}.time"), *time)?;
         check_view(&key, *eye, *look_at, *fov)?;

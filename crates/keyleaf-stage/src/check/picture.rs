@@ -9,6 +9,7 @@ use glam::{DVec2, DVec3, UVec2};
 use keyleaf::key::Key;
 use keyleaf::{Projection, View};
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// Rounding of positions on the GPU, as a part of their distance from the origin of its coordinates.
 const ROUNDING: f64 = 1e-6;
@@ -19,6 +20,7 @@ const OFF_CENTRE: f64 = 0.75;
 struct Patch {
     key: Key,
     vertices: Vec<DVec3>,
+    indices: Arc<[u16]>,
     centre: DVec3,
     radius: f64,
 }
@@ -27,26 +29,24 @@ struct Patch {
 pub struct PictureCheck {
     view: View,
     patches: Vec<Patch>,
-    /// Three indices a triangle, the same for all patches.
-    indices: Vec<u16>,
     rounding: f64,
 }
 
 impl PictureCheck {
-    /// An empty scene seen by `view`, whose leaves are drawn with the triangles of `indices` (those of the base grid).
-    pub fn new(view: &View, indices: &[u16]) -> Self {
-        Self { view: *view, patches: Vec::new(), indices: indices.to_vec(), rounding: 0.0 }
+    /// An empty scene seen by `view`.
+    pub fn new(view: &View) -> Self {
+        Self { view: *view, patches: Vec::new(), rounding: 0.0 }
     }
 
-    /// Adds a drawn leaf.
-    pub fn add(&mut self, key: Key, positions: &[[f32; 3]], sight: &Sight) {
+    /// Adds a drawn leaf: its vertices, and three indices a triangle, which leaves share.
+    pub fn add(&mut self, key: Key, positions: &[[f32; 3]], indices: &Arc<[u16]>, sight: &Sight) {
         let vertices: Vec<DVec3> = positions.iter().map(|p| sight.from_eye(*p)).collect();
         let centre = vertices.iter().sum::<DVec3>() / vertices.len().max(1) as f64;
         let radius = vertices.iter().map(|v| v.distance(centre)).fold(0.0, f64::max);
         // What is far from the eye or from the origin is rounded by as much.
         let farthest = positions.iter().flatten().fold(0.0, |far: f64, c| far.max(f64::from(c.abs())));
         self.rounding = self.rounding.max(ROUNDING * farthest * sight.stretch());
-        self.patches.push(Patch { key, vertices, centre, radius });
+        self.patches.push(Patch { key, vertices, indices: Arc::clone(indices), centre, radius });
     }
 
     /// Compares `samples` pixels of a picture of the channel `position`: four floats a pixel, row by row from the top.
@@ -140,7 +140,7 @@ impl PictureCheck {
             if off > patch.radius + 2.0 * self.footprint(along.abs() + patch.radius) {
                 continue;
             }
-            for triangle in self.triangles(patch) {
+            for triangle in patch.triangles() {
                 for (hit, (start, direction)) in hits.iter_mut().zip(rays) {
                     let near = self.near() + 1e-6 * self.near().abs() + self.rounding;
                     if let Some(depth) = intersect(start, direction, triangle).filter(|d| *d > near && *d < far)
@@ -158,12 +158,14 @@ impl PictureCheck {
     /// Distance to the nearest triangle; what is farther than `enough` may be reported as infinite.
     fn distance(&self, p: DVec3, enough: f64) -> f64 {
         let near = self.patches.iter().filter(|patch| patch.centre.distance(p) <= patch.radius + enough);
-        let triangles = near.flat_map(|patch| self.triangles(patch));
+        let triangles = near.flat_map(Patch::triangles);
         triangles.map(|triangle| distance_to_triangle(p, triangle)).fold(f64::INFINITY, f64::min)
     }
+}
 
-    fn triangles<'a>(&'a self, patch: &'a Patch) -> impl Iterator<Item = [DVec3; 3]> + 'a {
-        let vertex = |i: u16| patch.vertices.get(usize::from(i)).copied().unwrap_or(DVec3::NAN);
+impl Patch {
+    fn triangles(&self) -> impl Iterator<Item = [DVec3; 3]> + '_ {
+        let vertex = |i: u16| self.vertices.get(usize::from(i)).copied().unwrap_or(DVec3::NAN);
         self.indices.as_chunks::<3>().0.iter().map(move |t| t.map(vertex))
     }
 }

@@ -196,18 +196,7 @@ pub fn evaluate(
     points: &[RootPoint],
     leaves: &[Place],
 ) -> Evaluated {
-    let mut e = ENTRY_POINTS.to_string();
-    if source.ends_with("//POINT") {
-        let i = e.find("    let frame = surface_frame").unwrap();
-        let j = e.find("@compute @workgroup_size(64)\nfn bounds").unwrap();
-        e = format!("{}}}\n{}", &e[..i], &e[j..]);
-    }
-    if source.ends_with("//NULL") {
-        let i = e.find("    let frame = surface_frame").unwrap();
-        let j = e.find("@compute @workgroup_size(64)\nfn bounds").unwrap();
-        e = format!("{}}}\n{}", &e[..i], &e[j..]).replacen("surface_point(", "surface_null(", 1);
-    }
-    let source = format!("{source}\n{e}");
+    let source = format!("{source}{ENTRY_POINTS}");
     let module = device.device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: None,
         source: wgpu::ShaderSource::Wgsl(source.as_str().into()),

@@ -1,0 +1,181 @@
+//! `keyleaf render`: one headless frame.
+
+use crate::arguments::{SceneArguments, ViewArguments};
+use crate::output::{self, thousands};
+use crate::session::{self, DeviceReport};
+use crate::timing::{self, Timer};
+use crate::Outcome;
+use anyhow::ensure;
+use clap::{Args, ValueEnum};
+use glam::{DVec3, UVec2};
+use image::{DynamicImage, ImageBuffer, ImageFormat};
+use keyleaf::View;
+use keyleaf_stage::{Canvas, Loaded, Show, StageLook};
+use serde_json::json;
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+/// Render one frame of a scene to a picture
+///
+/// The surfaces are refined for the view until nothing changes, then drawn once.
+#[derive(Args)]
+#[command(after_help = "Examples:
+  keyleaf render scenes/terrain_real.ron -o terrain.png
+  keyleaf render cow.obj -o cow.png --eye 3,2,4 --look-at 0,1,0 --fov 40 --size 800x600 --wireframe
+  keyleaf render scenes/fox.ron -o fox.exr --channel position --json")]
+pub struct Arguments {
+    #[command(flatten)]
+    scene: SceneArguments,
+    #[command(flatten)]
+    view: ViewArguments,
+    /// The picture: .png, or .exr for the channel position
+    #[arg(long, short, value_name = "FILE")]
+    output: PathBuf,
+    /// What the picture shows
+    #[arg(long, value_enum, default_value = "color", value_name = "CHANNEL")]
+    channel: Channel,
+    #[command(flatten)]
+    overlay: OverlayArguments,
+    /// Frames to refine for [default: until nothing changes]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    frames: Option<u32>,
+    /// Print a report as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// What is drawn over the surface.
+#[derive(Args, Clone, Copy)]
+pub struct OverlayArguments {
+    /// Draw the edges of the triangles
+    #[arg(long)]
+    pub wireframe: bool,
+    /// Tint leaves by their level
+    #[arg(long)]
+    pub level_tint: bool,
+}
+
+/// A channel as the command line names it.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq)]
+pub enum Channel {
+    /// The lit picture
+    #[value(alias = "colour")]
+    Color,
+    /// World normals n as colours n/2 + 1/2
+    Normal,
+    /// Levels of the leaves as colours
+    Level,
+    /// World positions: in an .exr as floats, alpha 1 where there is a surface; in a .png as 16-bit numbers, 0 to 65535 from the
+    /// least to the greatest coordinate of the scene's box
+    Position,
+}
+
+impl Channel {
+    /// The channel with what is drawn over it.
+    pub fn look(self, overlay: OverlayArguments) -> StageLook {
+        let show = match self {
+            Self::Color => Show::Colour,
+            Self::Normal => Show::Normal,
+            Self::Level => Show::Level,
+            Self::Position => Show::Position,
+        };
+        StageLook { show, wireframe: overlay.wireframe, level_tint: overlay.level_tint }
+    }
+}
+
+/// Runs the command.
+pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
+    let start = Instant::now();
+    let format = format(&arguments.output, arguments.channel)?;
+    let is_overlay = arguments.overlay.wireframe || arguments.overlay.level_tint;
+    ensure!(arguments.channel == Channel::Color || !is_overlay, "--wireframe and --level-tint need the channel color");
+    output::ensure_writable(&arguments.output)?;
+    let loaded = arguments.scene.load(quiet)?;
+    let (camera, view) = arguments.view.view(&loaded)?;
+
+    let gpu = session::device()?;
+    let look = arguments.channel.look(arguments.overlay);
+    let mut stage = session::stage(&gpu, &loaded, look)?;
+    let canvas = Canvas::new(&gpu.device, arguments.view.size, stage.target())?;
+    let settled = session::settle(&gpu, &mut stage, &view, arguments.frames, quiet)?;
+    let timer = Timer::new(&gpu, &stage);
+    let frame = timing::frame(&gpu, &mut stage, Some(&canvas), &view, timer.as_ref())?;
+    let bytes = encode(canvas.read(&gpu)?, arguments.view.size, look.show, format, &view, &loaded)?;
+    output::write(&arguments.output, &bytes)?;
+
+    let device = DeviceReport::new(&gpu);
+    let statistics = frame.statistics;
+    let seconds = start.elapsed().as_secs_f64();
+    if arguments.json {
+        let draw = frame.draw.unwrap_or_default();
+        output::print_json(&json!({
+            "device": device.device, "driver": device.driver, "backend": device.backend, "software": device.software,
+            "scene": arguments.scene.scene, "picture": arguments.output, "size": arguments.view.size.to_array(),
+            "camera": camera, "frames": settled.frames, "settled": settled.is_settled,
+            "leaves": statistics.leaves, "visible": statistics.visible, "triangles": statistics.triangles,
+            "starved": statistics.starved, "threshold_factor": statistics.threshold_factor,
+            "passes": [{ "name": "update", "ms": frame.update.ms }, { "name": "draw", "ms": draw.ms }],
+            "clock": timing::clock(timer.as_ref()), "times": device.times,
+            "notes": loaded.notes, "seconds": seconds,
+        }))?;
+    } else {
+        let starved = match statistics.starved {
+            0 => String::new(),
+            n => format!(", {} splits short of capacity", thousands(n.into())),
+        };
+        output::print(&format!(
+            "{}: {}x{}, {} leaves, {} visible, {} triangles{starved}, {seconds:.1} s on {}",
+            arguments.output.display(),
+            arguments.view.size.x,
+            arguments.view.size.y,
+            thousands(statistics.leaves.into()),
+            thousands(statistics.visible.into()),
+            thousands(statistics.triangles),
+            device.device,
+        ))?;
+    }
+    Ok(Outcome::Done)
+}
+
+/// The format that a name asks for, if the channel has it.
+fn format(file: &Path, channel: Channel) -> anyhow::Result<ImageFormat> {
+    match output::extension(file).as_str() {
+        "png" => Ok(ImageFormat::Png),
+        "exr" if channel == Channel::Position => Ok(ImageFormat::OpenExr),
+        "exr" => anyhow::bail!("{}: only the channel position is written as .exr; expected .png", file.display()),
+        other => anyhow::bail!("{}: unknown picture type '{other}'; expected .png, or .exr for positions", file.display()),
+    }
+}
+
+/// A picture file from what was read back.
+fn encode(pixels: Vec<u8>, size: UVec2, show: Show, format: ImageFormat, view: &View, loaded: &Loaded) -> anyhow::Result<Vec<u8>> {
+    let whole = || anyhow::anyhow!("the picture read back has not {}x{} pixels", size.x, size.y);
+    let picture = if show == Show::Position {
+        let floats: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&pixels);
+        let positions = floats.into_iter().map(|[x, y, z, w]| {
+            let there = DVec3::new(x.into(), y.into(), z.into());
+            (w != 0.0).then_some(there + view.eye)
+        });
+        if format == ImageFormat::OpenExr {
+            let texel = |p: Option<DVec3>| p.map_or([0.0; 4], |p| p.as_vec3().extend(1.0).to_array());
+            let texels: Vec<f32> = positions.flat_map(texel).collect();
+            ImageBuffer::from_raw(size.x, size.y, texels).map(DynamicImage::ImageRgba32F)
+        } else {
+            let (low, high) = loaded.bounds;
+            let extent = (high - low).max(DVec3::splat(f64::MIN_POSITIVE));
+            let part = |p: DVec3| ((p - low) / extent).clamp(DVec3::ZERO, DVec3::ONE) * f64::from(u16::MAX);
+            let texel = |p: Option<DVec3>| {
+                p.map_or([0; 4], |p| part(p).round().extend(f64::from(u16::MAX)).to_array().map(|c| c as u16))
+            };
+            let texels: Vec<u16> = positions.flat_map(texel).collect();
+            ImageBuffer::from_raw(size.x, size.y, texels).map(DynamicImage::ImageRgba16)
+        }
+    } else {
+        let colours = pixels.as_chunks::<4>().0.iter().flat_map(|[r, g, b, _]| [*r, *g, *b]).collect();
+        ImageBuffer::from_raw(size.x, size.y, colours).map(DynamicImage::ImageRgb8)
+    };
+    let mut bytes = Cursor::new(Vec::new());
+    picture.ok_or_else(whole)?.write_to(&mut bytes, format)?;
+    Ok(bytes.into_inner())
+}

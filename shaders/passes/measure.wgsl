@@ -17,20 +17,22 @@ fn measure_leaf(slot: u32) {
     let digit = place_digit(place);
     var measure: Measure;
     var node = place;
-    let last = select(0u, 1u, publishes_merge(digit) && digit != ROOT_DIGIT);
+    // Who publishes merge needs its parent, and so does an even child: as half of a pair it is drawn in its parent's ball, not its own.
+    let last = select(0u, 1u, digit != ROOT_DIGIT && (publishes_merge(digit) || (digit & 1u) == 0u));
     for (var i = 0u; i <= last; i++) {
         if i == 1u {
             node = place_parent(place, digit);
         }
         let bound = surface_bound(node);
-        let size = metric_size(bound, node.level);
+        let size = select(metric_size(bound, node.level), 0.0, node.level >= frame.max_level);
         if i == 0u {
             measure.centre = bound.centre;
             measure.radius = bound.radius;
-            measure.size = select(size, 0.0, node.level >= frame.max_level);
+            measure.size = size;
             measure.guard = bound.guard;
         } else {
             measure.parent_size = size;
+            measure.parent_radius = bound.radius;
             parents[slot] = vec4f(bound.centre, bound.guard);
         }
     }

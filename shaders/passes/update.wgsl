@@ -9,7 +9,7 @@
 
 @group(0) @binding(0) var<uniform> frame: Frame;
 @group(0) @binding(1) var<storage, read> measures: array<Measure>;
-@group(0) @binding(2) var<storage, read> parents: array<vec4f>; // centre and guard radius of a leader's parent
+@group(0) @binding(2) var<storage, read> parents: array<vec4f>; // centre and guard radius of the parent of an even child
 @group(0) @binding(3) var<storage, read_write> state: array<u32>; // states, then requests
 @group(0) @binding(4) var<storage, read_write> lists: array<u32>; // visible, candidates, changes, freed
 @group(0) @binding(5) var<storage, read_write> control: Control;
@@ -18,6 +18,9 @@ const GROUP_SIZE: u32 = 64u;
 const LEAVES_PER_INVOCATION: u32 = 8u;
 const NEAR_WISHES: u32 = 32u; // of the histogram: see Control.near
 const HISTOGRAM: u32 = 33u;
+// The far corner of a pair is sqrt 5 half hypotenuses from the centre of its even half; a guard ball reaches twice as far as the surface
+// can go in one.
+const PAIR_REACH: f32 = 1.25;
 const ONE_STEP_LOWER: f32 = 0.8408964; // 2^(-1/4)
 
 var<workgroup> emitted: atomic<u32>; // visible leaves, and candidates << 16, of the workgroup
@@ -68,9 +71,14 @@ fn publish(slot: u32, scale: f32, has_requests: bool, counts_near: bool) -> u32 
         | select(0u, MATURE, mature) | select(0u, MERGE, merges);
 
     var result = 0u;
-    // The odd half of a pair is not drawn: the even one takes its place.
-    let hidden = (before & PAIR) != 0u && (digit & 1u) == 1u;
-    if !hidden && !is_outside(CULLING, centre, measure.radius) {
+    // The odd half of a pair is not drawn: the even one takes its place, and reaches as far as their parent.
+    let is_pair = (before & PAIR) != 0u;
+    let hidden = is_pair && (digit & 1u) == 1u;
+    var seen = vec4f(centre, measure.radius);
+    if is_pair {
+        seen = vec4f(parents[slot].xyz - frame.eye, measure.parent_radius);
+    }
+    if !hidden && !is_outside(CULLING, seen.xyz, seen.w) {
         result = 1u;
     }
     if wanted > 1.0 {

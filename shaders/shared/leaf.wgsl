@@ -22,7 +22,7 @@ struct Measure {
     size: f32,      // numerator of the metric; 0 at the level limit
     guard: f32,     // radius for the guard band
     parent_size: f32,
-    unused: f32,
+    parent_radius: f32, // of an even child, for culling: a pair is drawn as half of the parent
 }
 
 // Word `slot` of the state: the published wish and the flags below.

@@ -113,7 +113,7 @@ fn an_orthographic_camera_refines_everything_alike() {
     };
     let mut view = View::look_at(DVec3::new(2.0, 2.0, 2.0), DVec3::splat(0.5), 1.0, 1.0, SCREEN);
     view.projection = projection;
-    for metric in [EDGE, Metric::Distance { factor: 0.1 }] {
+    for metric in [EDGE, Metric::Distance { factor: 5.0 }] {
         let snapshot = run(&mut World::new(&surface, settings(metric)), &view, 20, metric.name());
         let level = snapshot.leaves[0].place().level;
         assert!(

@@ -111,7 +111,7 @@ fn any_start_settles_in_the_same_leaves_on_every_surface() {
             &surface,
             Settings {
                 capacity: 60_000,
-                ..settings(Metric::Edge { pixels: 20.0 })
+                ..settings(Metric::Edge { pixels: 50.0 })
             },
         );
     }
@@ -124,7 +124,7 @@ fn any_start_settles_in_the_same_leaves_with_the_distance_metric_and_a_base_grid
         capacity: 60_000,
         base_grid: 2,
         max_level: 29,
-        ..settings(Metric::Distance { factor: 0.004 })
+        ..settings(Metric::Distance { factor: 0.02 })
     };
     check("house", &surface, settings);
 }
@@ -134,7 +134,7 @@ fn lowering_the_level_limit_forgets_the_deeper_leaves() {
     let surface = surfaces::flat(&crate::meshes::cube());
     let limited = |max_level| Settings {
         max_level,
-        ..settings(Metric::Edge { pixels: 20.0 })
+        ..settings(Metric::Edge { pixels: 50.0 })
     };
     let view = goal(surface.as_ref());
     let fresh = settle(&mut World::new(&surface, limited(4)), &view, 0, "from the roots");
@@ -151,7 +151,7 @@ fn two_runs_of_the_same_flight_hold_the_same_leaves_in_every_frame() {
     for capacity in [20_000, 400] {
         let settings = Settings {
             capacity,
-            ..settings(Metric::Edge { pixels: 14.0 })
+            ..settings(Metric::Edge { pixels: 24.0 })
         };
         let mut runs = [World::new(&surface, settings), World::new(&surface, settings)];
         let mut random = Random(77);

@@ -21,9 +21,9 @@ fn half_the_edge_length_gives_about_four_times_the_leaves() {
         max_level: 25,
         ..settings(Metric::Edge { pixels })
     };
-    let mut world = World::new(&surface, with(8.0));
+    let mut world = World::new(&surface, with(40.0));
     let mut last: Option<f64> = None;
-    for pixels in [8.0, 4.0, 2.0] {
+    for pixels in [40.0, 20.0, 10.0] {
         world.quadtree.set_settings(with(pixels)).expect("in range");
         let snapshot = world.passes(&view, 40);
         assert_eq!(
@@ -60,12 +60,12 @@ fn a_base_grid_draws_edges_of_the_same_length_with_fewer_leaves() {
         1.0,
         UVec2::new(1280, 720),
     );
-    let leaves = [0, 1, 2].map(|base_grid| {
+    let leaves = [0u32, 1, 2].map(|base_grid| {
         let settings = Settings {
             capacity: 200_000,
             max_level: 25,
             base_grid,
-            ..settings(Metric::Edge { pixels: 6.0 })
+            ..settings(Metric::Edge { pixels: 24.0 })
         };
         f64::from(World::new(&surface, settings).passes(&view, 40).control.leaves)
     });

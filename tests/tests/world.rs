@@ -11,7 +11,7 @@ use keyleaf::{Frame, Metric, Quadtree, Settings, View};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-pub const EDGE: Metric = Metric::Edge { pixels: 24.0 };
+pub const EDGE: Metric = Metric::Edge { pixels: 40.0 };
 
 /// Settings for small tests: every leaf a triangle, one pass a frame.
 pub fn settings(metric: Metric) -> Settings {

@@ -76,22 +76,36 @@ impl SceneArguments {
 }
 
 /// Opens a scene; its notes go to stderr.
-pub fn load_scene(scene: &Path, reading: &ReadingArguments, overrides: &Overrides, quiet: bool) -> anyhow::Result<Loaded> {
-    let options = LoadOptions { raw_size: reading.raw_size.map(|size| size.to_array()) };
+pub fn load_scene(
+    scene: &Path,
+    reading: &ReadingArguments,
+    overrides: &Overrides,
+    quiet: bool,
+) -> anyhow::Result<Loaded> {
+    let options = LoadOptions {
+        raw_size: reading.raw_size.map(|size| size.to_array()),
+    };
     let mut loaded = load(scene, &options)?;
     if !quiet {
         loaded.notes.iter().for_each(|note| eprintln!("note: {note}"));
     }
     for object in &mut loaded.objects {
         overrides.apply(&mut object.settings);
-        object.settings.validate().with_context(|| format!("surface {}", object.name))?;
+        object
+            .settings
+            .validate()
+            .with_context(|| format!("surface {}", object.name))?;
     }
     Ok(loaded)
 }
 
 impl Overrides {
     fn apply(&self, settings: &mut Settings) {
-        settings.metric = self.pixels.map(|pixels| Metric::Edge { pixels }).or(self.metric).unwrap_or(settings.metric);
+        settings.metric = self
+            .pixels
+            .map(|pixels| Metric::Edge { pixels })
+            .or(self.metric)
+            .unwrap_or(settings.metric);
         settings.capacity = self.capacity.unwrap_or(settings.capacity);
         settings.target_leaves = settings.target_leaves.min(settings.capacity);
         if let Some(k) = self.base_grid {
@@ -109,17 +123,25 @@ impl ViewArguments {
             let camera = loaded.camera(self.camera.as_deref())?;
             return Ok((camera.name.clone(), loaded.view(Some(&camera.name), self.size)?));
         };
-        ensure!(eye != look_at, "--look-at is the same point as --eye: a camera needs a direction");
+        ensure!(
+            eye != look_at,
+            "--look-at is the same point as --eye: a camera needs a direction"
+        );
         let fov = self.fov.unwrap_or(50.0);
         let view = keyleaf_scene::View::new(eye, look_at, fov, None);
-        Ok((format!("eye {eye}, look at {look_at}, fov {fov}"), view_of(&view, self.size)))
+        Ok((
+            format!("eye {eye}, look at {look_at}, fov {fov}"),
+            view_of(&view, self.size),
+        ))
     }
 }
 
 /// `WxH`, both at least 1.
 pub fn parse_size(text: &str) -> anyhow::Result<UVec2> {
     let side = |text: &str| text.trim().parse::<u32>().ok();
-    let (width, height) = text.split_once(['x', 'X']).context("expected WIDTHxHEIGHT, such as 1280x720")?;
+    let (width, height) = text
+        .split_once(['x', 'X'])
+        .context("expected WIDTHxHEIGHT, such as 1280x720")?;
     match (side(width), side(height)) {
         (Some(0), Some(_)) | (Some(_), Some(0)) => bail!("expected at least 1x1"),
         (Some(width), Some(height)) => Ok(UVec2::new(width, height)),
@@ -131,7 +153,9 @@ fn parse_point(text: &str) -> anyhow::Result<DVec3> {
     let numbers: Vec<f64> = text.split(',').filter_map(|n| n.trim().parse().ok()).collect();
     let most = keyleaf_scene::MAX_COORDINATE;
     match numbers[..] {
-        [x, y, z] if text.matches(',').count() == 2 && [x, y, z].iter().all(|c| c.abs() <= most) => Ok(DVec3::new(x, y, z)),
+        [x, y, z] if text.matches(',').count() == 2 && [x, y, z].iter().all(|c| c.abs() <= most) => {
+            Ok(DVec3::new(x, y, z))
+        }
         _ => bail!("expected three finite numbers X,Y,Z, each at most {most:e}"),
     }
 }
@@ -154,7 +178,10 @@ fn parse_metric(text: &str) -> anyhow::Result<Metric> {
 /// A positive number of seconds.
 pub fn parse_seconds(text: &str) -> anyhow::Result<f64> {
     let seconds: f64 = text.parse().context("expected a number of seconds")?;
-    ensure!(seconds > 0.0 && seconds.is_finite(), "expected a number of seconds above 0");
+    ensure!(
+        seconds > 0.0 && seconds.is_finite(),
+        "expected a number of seconds above 0"
+    );
     Ok(seconds)
 }
 
@@ -189,12 +216,35 @@ mod tests {
 
     #[test]
     fn fewer_pixels_replace_the_metric_of_the_scene() {
-        let none = Overrides { pixels: None, metric: None, capacity: None, base_grid: None, max_level: None };
-        let mut settings = Settings { max_level: 29, ..Settings::default() };
+        let none = Overrides {
+            pixels: None,
+            metric: None,
+            capacity: None,
+            base_grid: None,
+            max_level: None,
+        };
+        let mut settings = Settings {
+            max_level: 29,
+            ..Settings::default()
+        };
         none.apply(&mut settings);
-        assert_eq!(settings, Settings { max_level: 29, ..Settings::default() });
-        Overrides { pixels: Some(3.0), base_grid: Some(4), ..none }.apply(&mut settings);
-        assert_eq!((settings.metric, settings.base_grid, settings.max_level), (Metric::Edge { pixels: 3.0 }, 4, 27));
+        assert_eq!(
+            settings,
+            Settings {
+                max_level: 29,
+                ..Settings::default()
+            }
+        );
+        Overrides {
+            pixels: Some(3.0),
+            base_grid: Some(4),
+            ..none
+        }
+        .apply(&mut settings);
+        assert_eq!(
+            (settings.metric, settings.base_grid, settings.max_level),
+            (Metric::Edge { pixels: 3.0 }, 4, 27)
+        );
         settings.validate().unwrap();
     }
 }

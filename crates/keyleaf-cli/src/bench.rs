@@ -87,7 +87,13 @@ impl Spread {
             sorted.get(rank.saturating_sub(1)).copied().unwrap_or(0.0)
         };
         let mean = sorted.iter().sum::<f64>() / sorted.len().max(1) as f64;
-        Self { median: at(0.5), p95: at(0.95), p99: at(0.99), max: at(1.0), mean }
+        Self {
+            median: at(0.5),
+            p95: at(0.95),
+            p99: at(0.99),
+            max: at(1.0),
+            mean,
+        }
     }
 }
 
@@ -133,7 +139,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
     let gpu = session::device()?;
     let mut scenes = Vec::new();
     for scene in &arguments.scenes {
-        scenes.push(fly(&gpu, scene, arguments, quiet).with_context(|| scene.display().to_string())?);
+        let loaded = load_scene(scene, &arguments.reading, &arguments.overrides, quiet)?;
+        scenes.push(fly(&gpu, scene, loaded, arguments, quiet).with_context(|| scene.display().to_string())?);
     }
     let device = DeviceReport::new(&gpu);
     let report = json!({
@@ -154,8 +161,13 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
 }
 
 /// Flies one scene; its part of the report.
-fn fly(gpu: &Headless, scene: &Path, arguments: &Arguments, quiet: bool) -> anyhow::Result<serde_json::Value> {
-    let mut loaded = load_scene(scene, &arguments.reading, &arguments.overrides, quiet)?;
+fn fly(
+    gpu: &Headless,
+    scene: &Path,
+    mut loaded: Loaded,
+    arguments: &Arguments,
+    quiet: bool,
+) -> anyhow::Result<serde_json::Value> {
     let path = loaded.path(arguments.path.as_deref())?.clone();
     let views = views(&path, arguments)?;
     let balances: &[Balance] = match arguments.neighbours {
@@ -163,11 +175,22 @@ fn fly(gpu: &Headless, scene: &Path, arguments: &Arguments, quiet: bool) -> anyh
         Neighbours::Off => &[Balance::Off],
         Neighbours::Both => &[Balance::Table, Balance::Off],
     };
-    let mut runs: Vec<Run> = balances.iter().map(|balance| start(gpu, &mut loaded, *balance)).collect::<Result<_, _>>()?;
+    let mut runs: Vec<Run> = balances
+        .iter()
+        .map(|balance| start(gpu, &mut loaded, *balance))
+        .collect::<Result<_, _>>()?;
     let target = keyleaf_stage::target(Show::Colour);
-    let canvas = if arguments.no_draw { None } else { Some(Canvas::new(&gpu.device, arguments.size, target)?) };
+    let canvas = if arguments.no_draw {
+        None
+    } else {
+        Some(Canvas::new(&gpu.device, arguments.size, target)?)
+    };
 
-    let bar = progress::bar(u64::from(arguments.warm_up) + views.len() as u64, &scene.display().to_string(), quiet);
+    let bar = progress::bar(
+        u64::from(arguments.warm_up) + views.len() as u64,
+        &scene.display().to_string(),
+        quiet,
+    );
     for _ in 0..arguments.warm_up {
         for run in &mut runs {
             timing::frame(gpu, &mut run.stage, canvas.as_ref(), &views[0], run.timer.as_ref())?;
@@ -176,13 +199,21 @@ fn fly(gpu: &Headless, scene: &Path, arguments: &Arguments, quiet: bool) -> anyh
     }
     for view in &views {
         for run in &mut runs {
-            run.frames.push(timing::frame(gpu, &mut run.stage, canvas.as_ref(), view, run.timer.as_ref())?);
+            run.frames.push(timing::frame(
+                gpu,
+                &mut run.stage,
+                canvas.as_ref(),
+                view,
+                run.timer.as_ref(),
+            )?);
         }
         bar.inc(1);
     }
     bar.finish_and_clear();
 
-    let [first, others @ ..] = &runs[..] else { unreachable!("there is one run at least") };
+    let [first, others @ ..] = &runs[..] else {
+        unreachable!("there is one run at least")
+    };
     let mut report = report(scene, &path, first);
     report["neighbours"] = json!(arguments.neighbours != Neighbours::Off);
     if let [other] = others {
@@ -208,8 +239,9 @@ fn views(path: &CameraPath, arguments: &Arguments) -> anyhow::Result<Vec<View>> 
         let time = (f64::from(frame) * step).rem_euclid(2.0 * turn);
         path.start() + if time > turn { 2.0 * turn - time } else { time }
     };
-    let views: Option<Vec<View>> =
-        (0..arguments.frames).map(|frame| Some(view_of(&path.view_at(time(frame))?, arguments.size))).collect();
+    let views: Option<Vec<View>> = (0..arguments.frames)
+        .map(|frame| Some(view_of(&path.view_at(time(frame))?, arguments.size)))
+        .collect();
     let views = views.with_context(|| format!("the camera path '{}' has no keys", path.name))?;
     ensure!(!views.is_empty(), "no frames to measure");
     Ok(views)
@@ -221,7 +253,11 @@ fn start(gpu: &Headless, loaded: &mut Loaded, balance: Balance) -> anyhow::Resul
     }
     let stage = session::stage(gpu, loaded, StageLook::default())?;
     let timer = Timer::new(gpu, &stage);
-    Ok(Run { stage, timer, frames: Vec::new() })
+    Ok(Run {
+        stage,
+        timer,
+        frames: Vec::new(),
+    })
 }
 
 fn cpu_ms(run: &Run) -> f64 {
@@ -281,7 +317,10 @@ fn text(scenes: &[serde_json::Value], device: &DeviceReport, out: &Path) -> Stri
     let mut ratios = String::new();
     for scene in scenes {
         let name = scene["name"].as_str().unwrap_or_default();
-        for (run, label) in [(Some(scene), ""), (scene.get("without_neighbours"), " without neighbours")] {
+        for (run, label) in [
+            (Some(scene), ""),
+            (scene.get("without_neighbours"), " without neighbours"),
+        ] {
             let Some(run) = run else { continue };
             for pass in run["passes"].as_array().into_iter().flatten() {
                 let ms = |key: &str| format!("{:.2}", number(pass.get(key)));
@@ -296,15 +335,25 @@ fn text(scenes: &[serde_json::Value], device: &DeviceReport, out: &Path) -> Stri
                     format!("{:.2}", number(pass.pointer("/cpu_ms/median"))),
                 ]);
             }
-            ratios += &format!("\n{name}{label}: {:.3} µs of CPU time a leaf for the update", number(run.get("cpu_us_a_leaf")));
+            ratios += &format!(
+                "\n{name}{label}: {:.3} µs of CPU time a leaf for the update",
+                number(run.get("cpu_us_a_leaf"))
+            );
         }
         if let Some(ratio) = scene.get("ratio") {
             let [all, leaf] = ["cpu", "cpu_a_leaf"].map(|key| number(ratio.get(key)));
-            ratios += &format!("\n{name}: the neighbour test takes {all:.2} times the CPU time, {leaf:.2} times a leaf");
+            ratios +=
+                &format!("\n{name}: the neighbour test takes {all:.2} times the CPU time, {leaf:.2} times a leaf");
         }
     }
     let head = ["scene", "pass", "leaves", "ms p50", "p95", "p99", "max", "CPU ms p50"];
-    format!("{} ({})\n{}{ratios}\n{}", device.device, device.times, table::format(&head, &rows), out.display())
+    format!(
+        "{} ({})\n{}{ratios}\n{}",
+        device.device,
+        device.times,
+        table::format(&head, &rows),
+        out.display()
+    )
 }
 
 #[cfg(test)]
@@ -314,7 +363,16 @@ mod tests {
     #[test]
     fn percentiles_are_values_that_were_measured() {
         let spread = Spread::of((1..=100).rev().map(f64::from));
-        assert_eq!(spread, Spread { median: 50.0, p95: 95.0, p99: 99.0, max: 100.0, mean: 50.5 });
+        assert_eq!(
+            spread,
+            Spread {
+                median: 50.0,
+                p95: 95.0,
+                p99: 99.0,
+                max: 100.0,
+                mean: 50.5
+            }
+        );
         assert_eq!(Spread::of([7.0].into_iter()).p99, 7.0);
         assert_eq!(Spread::of(std::iter::empty()).max, 0.0);
     }

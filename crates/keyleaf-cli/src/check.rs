@@ -8,7 +8,7 @@ use anyhow::ensure;
 use clap::Args;
 use glam::UVec2;
 use keyleaf::headless::Headless;
-use keyleaf::{BaseGrid, KeyleafError, View};
+use keyleaf::{Balance, BaseGrid, KeyleafError, View};
 use keyleaf_stage::check::{Checker, Finding, FindingKind, Findings, PictureCheck, Sight};
 use keyleaf_stage::{Canvas, Show, Stage, StageLook, view_of};
 use serde_json::json;
@@ -42,6 +42,9 @@ pub struct Arguments {
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", value_parser = parse_size, default_value = "1280x720")]
     size: UVec2,
+    /// Switch off what keeps neighbours from cracking, to see that the cracks are found
+    #[arg(long)]
+    no_neighbours: bool,
     /// Print a report as JSON
     #[arg(long)]
     json: bool,
@@ -77,7 +80,12 @@ impl Flight {
         for (kind, count) in &findings.counts {
             *self.counts.entry(*kind).or_default() += count;
         }
-        let found = |finding| Found { frame, time, object: object.to_owned(), finding };
+        let found = |finding| Found {
+            frame,
+            time,
+            object: object.to_owned(),
+            finding,
+        };
         let room = PRINTED.saturating_sub(self.first.len());
         self.first.extend(findings.first.into_iter().take(room).map(found));
     }
@@ -90,17 +98,32 @@ impl Flight {
 /// Runs the command.
 pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
     let start = Instant::now();
-    let loaded = arguments.scene.load(quiet)?;
+    let mut loaded = arguments.scene.load(quiet)?;
+    if arguments.no_neighbours {
+        loaded
+            .objects
+            .iter_mut()
+            .for_each(|object| object.settings.balance = Balance::Off);
+    }
     let path = loaded.path(arguments.path.as_deref())?;
-    let frames: Vec<_> = path.frames(arguments.step).map(|f| (f.time, view_of(&f.view, arguments.size))).collect();
+    let frames: Vec<_> = path
+        .frames(arguments.step)
+        .map(|f| (f.time, view_of(&f.view, arguments.size)))
+        .collect();
     ensure!(!frames.is_empty(), "the camera path '{}' has no keys", path.name);
     let gpu = session::device()?;
-    let look = StageLook { show: Show::Position, ..StageLook::default() };
+    let look = StageLook {
+        show: Show::Position,
+        ..StageLook::default()
+    };
     let mut stage = session::stage(&gpu, &loaded, look)?;
     let canvas = Canvas::new(&gpu.device, arguments.size, stage.target())?;
     let checker = Checker::new(&gpu, &stage)?;
 
-    let mut flight = Flight { frames: frames.len(), ..Flight::default() };
+    let mut flight = Flight {
+        frames: frames.len(),
+        ..Flight::default()
+    };
     let bar = progress::bar(frames.len() as u64, &format!("checking {}", path.name), quiet);
     for (frame, (time, view)) in frames.iter().enumerate() {
         let statistics = session::update(&gpu, &mut stage, view)?;
@@ -130,24 +153,40 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
     } else {
         output::print(&text(&flight, scene, &path.name, seconds))?;
     }
-    Ok(if flight.total() == 0 { Outcome::Done } else { Outcome::Failed })
+    Ok(if flight.total() == 0 {
+        Outcome::Done
+    } else {
+        Outcome::Failed
+    })
 }
 
 /// Renders positions as the last update left the stage, and compares pixels with the triangles.
-fn picture(gpu: &Headless, stage: &mut Stage, canvas: &Canvas, checker: &Checker, view: &View) -> Result<Findings, KeyleafError> {
+fn picture(
+    gpu: &Headless,
+    stage: &mut Stage,
+    canvas: &Canvas,
+    checker: &Checker,
+    view: &View,
+) -> Result<Findings, KeyleafError> {
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     canvas.draw(&mut encoder, stage, view, None);
     gpu.queue.submit([encoder.finish()]);
     let pixels: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&canvas.read(gpu)?);
     let mut check = PictureCheck::new(view);
     for (i, object) in stage.objects.iter().enumerate() {
-        let (quadtree, Some(inspector)) = (&object.quadtree, checker.inspector(i)) else { continue };
+        let (quadtree, Some(inspector)) = (&object.quadtree, checker.inspector(i)) else {
+            continue;
+        };
         let snapshot = quadtree.read_back(&gpu.device, &gpu.queue)?;
         let sight = Sight::new(view, quadtree.world_from_object(), quadtree.origin());
         let grid = BaseGrid::new(quadtree.settings().base_grid);
         let indices = Arc::from(grid.indices);
         let emitted = inspector.emit(&gpu.device, &gpu.queue, quadtree, &snapshot.visible)?;
-        for (slot, vertices) in snapshot.visible.iter().zip(emitted.positions.chunks(grid.vertices.len())) {
+        for (slot, vertices) in snapshot
+            .visible
+            .iter()
+            .zip(emitted.positions.chunks(grid.vertices.len()))
+        {
             check.add(snapshot.leaves[*slot as usize].key, vertices, &indices, &sight);
         }
     }
@@ -193,19 +232,34 @@ fn text(flight: &Flight, scene: &Path, path: &str, seconds: f64) -> String {
         thousands(flight.total()),
     );
     if let (Some(first), n) = (flight.starved.first(), flight.starved.len()) {
-        text += &format!("\nstarved in {n} frames, first in frame {first}: the capacity was used up, and what was drawn was coarser");
+        text += &format!(
+            "\nstarved in {n} frames, first in frame {first}: the capacity was used up, and what was drawn was coarser"
+        );
     }
     if flight.total() > 0 {
-        let counts: Vec<String> = flight.counts.iter().map(|(kind, n)| format!("{} {}", thousands(*n), kind.name())).collect();
+        let counts: Vec<String> = flight
+            .counts
+            .iter()
+            .map(|(kind, n)| format!("{} {}", thousands(*n), kind.name()))
+            .collect();
         let rows: Vec<Vec<String>> = flight
             .first
             .iter()
             .map(|f| {
                 let keys = f.finding.key_texts().join(" ");
-                vec![f.frame.to_string(), f.object.clone(), f.finding.kind.name().into(), keys, f.finding.detail.clone()]
+                vec![
+                    f.frame.to_string(),
+                    f.object.clone(),
+                    f.finding.kind.name().into(),
+                    keys,
+                    f.finding.detail.clone(),
+                ]
             })
             .collect();
-        let table = table::format(&["frame", "object", "finding", "keys (face:root:digits)", "what"], &rows);
+        let table = table::format(
+            &["frame", "object", "finding", "keys (face:root:digits)", "what"],
+            &rows,
+        );
         text += &format!("\n{}\nthe first ones:\n{table}", counts.join(", "));
     }
     text

@@ -35,16 +35,29 @@ impl Csv {
     fn parse(file: &Path, text: &str) -> anyhow::Result<Self> {
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-        let Some((number, header)) = lines.next() else { bail!("{}: the file is empty; expected a header", file.display()) };
+        let Some((number, header)) = lines.next() else {
+            bail!("{}: the file is empty; expected a header", file.display())
+        };
         let columns = fields(header).with_context(|| format!("{}:{}", file.display(), number + 1))?;
         let mut rows = Vec::new();
         for (number, line) in lines {
             let at = || format!("{}:{}", file.display(), number + 1);
             let fields = fields(line).with_context(at)?;
-            ensure!(fields.len() == columns.len(), "{}: {} columns; expected the {} of the header", at(), fields.len(), columns.len());
+            ensure!(
+                fields.len() == columns.len(),
+                "{}: {} columns; expected the {} of the header",
+                at(),
+                fields.len(),
+                columns.len()
+            );
             rows.push((number + 1, line.to_owned(), fields));
         }
-        Ok(Self { file: file.to_path_buf(), header: header.to_owned(), columns, rows })
+        Ok(Self {
+            file: file.to_path_buf(),
+            header: header.to_owned(),
+            columns,
+            rows,
+        })
     }
 
     /// The index of a column.
@@ -59,7 +72,12 @@ impl Csv {
 
     /// The rows in order.
     pub fn rows(&self) -> impl Iterator<Item = Row<'_>> {
-        self.rows.iter().map(|(line, text, fields)| Row { csv: self, line: *line, text, fields })
+        self.rows.iter().map(|(line, text, fields)| Row {
+            csv: self,
+            line: *line,
+            text,
+            fields,
+        })
     }
 }
 
@@ -72,14 +90,26 @@ impl Row<'_> {
     /// The finite number in a column.
     pub fn number(&self, column: usize) -> anyhow::Result<f64> {
         let text = self.text(column);
-        let wrong = || format!("{}: {} is '{text}'; expected a finite number", self.place(), self.csv.columns[column]);
+        let wrong = || {
+            format!(
+                "{}: {} is '{text}'; expected a finite number",
+                self.place(),
+                self.csv.columns[column]
+            )
+        };
         text.parse().ok().filter(|n: &f64| n.is_finite()).with_context(wrong)
     }
 
     /// The whole number in a column.
     pub fn index(&self, column: usize) -> anyhow::Result<u32> {
         let text = self.text(column);
-        let wrong = || format!("{}: {} is '{text}'; expected a whole number from 0", self.place(), self.csv.columns[column]);
+        let wrong = || {
+            format!(
+                "{}: {} is '{text}'; expected a whole number from 0",
+                self.place(),
+                self.csv.columns[column]
+            )
+        };
         text.parse().ok().with_context(wrong)
     }
 
@@ -122,8 +152,14 @@ mod tests {
         let csv = parse("name, face ,u\n\n\"a, \"\"b\"\"\",3, 0.5\r\n").unwrap();
         assert_eq!((csv.column("face"), csv.column("v")), (Some(1), None));
         let row = csv.rows().next().unwrap();
-        assert_eq!((row.text(0), row.index(1).unwrap(), row.number(2).unwrap()), ("a, \"b\"", 3, 0.5));
-        assert_eq!((row.place(), row.text), ("in.csv:3".to_owned(), "\"a, \"\"b\"\"\",3, 0.5"));
+        assert_eq!(
+            (row.text(0), row.index(1).unwrap(), row.number(2).unwrap()),
+            ("a, \"b\"", 3, 0.5)
+        );
+        assert_eq!(
+            (row.place(), row.text),
+            ("in.csv:3".to_owned(), "\"a, \"\"b\"\"\",3, 0.5")
+        );
     }
 
     #[test]
@@ -134,7 +170,17 @@ mod tests {
         assert!(message("a\n\"1\n").starts_with("in.csv:2"));
         let csv = parse("face,u\n-1,nan\n").unwrap();
         let row = csv.rows().next().unwrap();
-        assert!(row.index(0).unwrap_err().to_string().starts_with("in.csv:2: face is '-1'"));
-        assert!(row.number(1).unwrap_err().to_string().starts_with("in.csv:2: u is 'nan'"));
+        assert!(
+            row.index(0)
+                .unwrap_err()
+                .to_string()
+                .starts_with("in.csv:2: face is '-1'")
+        );
+        assert!(
+            row.number(1)
+                .unwrap_err()
+                .to_string()
+                .starts_with("in.csv:2: u is 'nan'")
+        );
     }
 }

@@ -1,6 +1,6 @@
 //! `keyleaf eval`: the surface at given parameters.
 
-use crate::arguments::{ReadingArguments, load_scene, Overrides};
+use crate::arguments::{Overrides, ReadingArguments, load_scene};
 use crate::csv::{Csv, Row};
 use crate::output::{self, thousands};
 use crate::{Outcome, session};
@@ -65,12 +65,22 @@ const APPENDED: &str = "x,y,z,du_x,du_y,du_z,dv_x,dv_y,dv_z,n_x,n_y,n_z";
 /// Runs the command.
 pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
     output::ensure_writable(&arguments.output)?;
-    let overrides = Overrides { pixels: None, metric: None, capacity: None, base_grid: None, max_level: None };
+    let overrides = Overrides {
+        pixels: None,
+        metric: None,
+        capacity: None,
+        base_grid: None,
+        max_level: None,
+    };
     let loaded = load_scene(&arguments.scene, &arguments.reading, &overrides, quiet)?;
     let csv = Csv::read(&arguments.at)?;
     let points = points(&csv, &loaded, arguments)?;
     let mut lines: Vec<Option<String>> = vec![None; points.len()];
-    let gpu = if arguments.on == Place::Gpu { Some(session::device()?) } else { None };
+    let gpu = if arguments.on == Place::Gpu {
+        Some(session::device()?)
+    } else {
+        None
+    };
     for (i, object) in loaded.objects.iter().enumerate() {
         let wanted = || points.iter().enumerate().filter(|(_, (object, _))| *object == i);
         let rows: Vec<usize> = wanted().map(|(row, _)| row).collect();
@@ -82,12 +92,28 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
             continue;
         };
         // A quadtree of the roots alone: it holds the tables of the surface, for the object's own origin.
-        let settings = Settings { capacity: object.surface.topology().half_edge_count(), ..object.settings };
-        let passes = Arc::new(Passes::new(&gpu.device, Quadtree::kind(object.surface.as_ref(), &settings))?);
+        let settings = Settings {
+            capacity: object.surface.topology().half_edge_count(),
+            ..object.settings
+        };
+        let passes = Arc::new(Passes::new(
+            &gpu.device,
+            Quadtree::kind(object.surface.as_ref(), &settings),
+        )?);
         let surface = Arc::clone(&object.surface);
-        let quadtree = Quadtree::new(&gpu.device, &gpu.queue, passes, surface, object.world_from_object, settings)?;
+        let quadtree = Quadtree::new(
+            &gpu.device,
+            &gpu.queue,
+            passes,
+            surface,
+            object.world_from_object,
+            settings,
+        )?;
         let inspector = Inspector::new(&gpu.device, &Quadtree::kind(object.surface.as_ref(), &settings))?;
-        for (row, frame) in rows.into_iter().zip(inspector.evaluate(&gpu.device, &gpu.queue, &quadtree, &at)?) {
+        for (row, frame) in rows
+            .into_iter()
+            .zip(inspector.evaluate(&gpu.device, &gpu.queue, &quadtree, &at)?)
+        {
             let frame = SurfaceFrame {
                 position: frame.position.as_dvec3() + quadtree.origin(),
                 du: frame.du.as_dvec3(),
@@ -99,13 +125,23 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
     }
     let mut text = format!("{},{APPENDED}\n", csv.header);
     for (row, numbers) in csv.rows().zip(&lines) {
-        let numbers = numbers.as_deref().with_context(|| format!("{}: was not evaluated", row.place()))?;
-        ensure!(!numbers.contains("NaN") && !numbers.contains("inf"), "{}: the surface is not finite there", row.place());
+        let numbers = numbers
+            .as_deref()
+            .with_context(|| format!("{}: was not evaluated", row.place()))?;
+        ensure!(
+            !numbers.contains("NaN") && !numbers.contains("inf"),
+            "{}: the surface is not finite there",
+            row.place()
+        );
         writeln!(text, "{},{numbers}", row.text)?;
     }
     output::write(&arguments.output, text.as_bytes())?;
     if !quiet {
-        output::print(&format!("{}: {} points", arguments.output.display(), thousands(points.len() as u64)))?;
+        output::print(&format!(
+            "{}: {} points",
+            arguments.output.display(),
+            thousands(points.len() as u64)
+        ))?;
     }
     Ok(Outcome::Done)
 }
@@ -127,7 +163,10 @@ fn points(csv: &Csv, loaded: &Loaded, arguments: &Arguments) -> anyhow::Result<V
     let has = |name| csv.column(name).is_some();
     let missing = |name| {
         let there = csv.columns().join(",");
-        format!("{}:1: there is no column `{name}` in {there}; expected face,u,v or surface,s,t", arguments.at.display())
+        format!(
+            "{}:1: there is no column `{name}` in {there}; expected face,u,v or surface,s,t",
+            arguments.at.display()
+        )
     };
     let kind = if has("face") || !has("surface") {
         columns(["face", "u", "v"]).map(Kind::Face)
@@ -136,21 +175,41 @@ fn points(csv: &Csv, loaded: &Loaded, arguments: &Arguments) -> anyhow::Result<V
     };
     let kind = kind.map_err(|name| anyhow::anyhow!(missing(name)))?;
     let column = csv.column("object");
-    let names = || loaded.objects.iter().map(|o| o.name.as_str()).collect::<Vec<_>>().join(", ");
+    let names = || {
+        loaded
+            .objects
+            .iter()
+            .map(|o| o.name.as_str())
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
     let object = |name: &str, place: &str| {
         let found = loaded.objects.iter().position(|o| o.name == name);
-        found.with_context(|| format!("{place}there is no object '{name}' in the scene; there are: {}", names()))
+        found.with_context(|| {
+            format!(
+                "{place}there is no object '{name}' in the scene; there are: {}",
+                names()
+            )
+        })
     };
     let only = match (&arguments.object, column) {
-        (Some(_), Some(_)) => bail!("{}:1: there is a column `object`, and --object too", arguments.at.display()),
+        (Some(_), Some(_)) => bail!(
+            "{}:1: there is a column `object`, and --object too",
+            arguments.at.display()
+        ),
         (Some(name), None) => object(name, "")?,
         (None, None) if loaded.objects.len() > 1 => {
-            bail!("the scene has several objects ({}): name one with --object, or in a column `object`", names())
+            bail!(
+                "the scene has several objects ({}): name one with --object, or in a column `object`",
+                names()
+            )
         }
         (None, _) => 0,
     };
     let row = |row: Row<'_>| {
-        let i = column.map_or(Ok(only), |column| object(row.text(column), &format!("{}: ", row.place())))?;
+        let i = column.map_or(Ok(only), |column| {
+            object(row.text(column), &format!("{}: ", row.place()))
+        })?;
         Ok((i, point(&row, &kind, &loaded.objects[i])?))
     };
     csv.rows().map(row).collect()
@@ -161,10 +220,21 @@ fn point(row: &Row<'_>, kind: &Kind, object: &LoadedObject) -> anyhow::Result<Ro
     let (face, u, v) = match *kind {
         Kind::Face([face, u, v]) => (row.index(face)?, row.number(u)?, row.number(v)?),
         Kind::Surface([surface, s, t]) => {
-            let is_map = ["surfaces/height_field", "surfaces/terrain"].iter().any(|f| object.surface.shader().starts_with(f));
-            ensure!(is_map, "{}: '{}' is a mesh, which has no parameters s,t of its own; expected face,u,v", row.place(), object.name);
+            let is_map = ["surfaces/height_field", "surfaces/terrain"]
+                .iter()
+                .any(|f| object.surface.shader().starts_with(f));
+            ensure!(
+                is_map,
+                "{}: '{}' is a mesh, which has no parameters s,t of its own; expected face,u,v",
+                row.place(),
+                object.name
+            );
             let number = row.index(surface)?;
-            ensure!(number == 0, "{}: surface is {number}; a height map or terrain has only surface 0", row.place());
+            ensure!(
+                number == 0,
+                "{}: surface is {number}; a height map or terrain has only surface 0",
+                row.place()
+            );
             (0, row.number(s)?, row.number(t)?)
         }
     };
@@ -179,7 +249,12 @@ fn placed(object: &LoadedObject, frame: SurfaceFrame) -> [DVec3; 4] {
     }
     let linear = to_world.matrix3;
     let normal = linear.inverse().transpose() * frame.normal;
-    [to_world.transform_point3(frame.position), linear * frame.du, linear * frame.dv, normal.normalize()]
+    [
+        to_world.transform_point3(frame.position),
+        linear * frame.du,
+        linear * frame.dv,
+        normal.normalize(),
+    ]
 }
 
 /// A float with the fewest digits that read back as itself.
@@ -200,7 +275,12 @@ impl Shortest for f64 {
 }
 
 fn numbers<F: Shortest>(vectors: &[DVec3; 4]) -> String {
-    vectors.iter().flat_map(|v| v.to_array()).map(|c| F::text(c)).collect::<Vec<_>>().join(",")
+    vectors
+        .iter()
+        .flat_map(|v| v.to_array())
+        .map(|c| F::text(c))
+        .collect::<Vec<_>>()
+        .join(",")
 }
 
 #[cfg(test)]
@@ -209,10 +289,24 @@ mod tests {
 
     #[test]
     fn numbers_read_back_as_they_were() {
-        let vectors = [DVec3::new(0.1, -1e-20, 123456.789), DVec3::X, DVec3::ZERO, DVec3::splat(1.0 / 3.0)];
-        let exact: Vec<f64> = numbers::<f64>(&vectors).split(',').map(|n| n.parse().unwrap()).collect();
+        let vectors = [
+            DVec3::new(0.1, -1e-20, 123456.789),
+            DVec3::X,
+            DVec3::ZERO,
+            DVec3::splat(1.0 / 3.0),
+        ];
+        let exact: Vec<f64> = numbers::<f64>(&vectors)
+            .split(',')
+            .map(|n| n.parse().unwrap())
+            .collect();
         assert_eq!(exact, vectors.iter().flat_map(|v| v.to_array()).collect::<Vec<_>>());
-        let single: Vec<f32> = numbers::<f32>(&vectors).split(',').map(|n| n.parse().unwrap()).collect();
-        assert_eq!(single, vectors.iter().flat_map(|v| v.as_vec3().to_array()).collect::<Vec<_>>());
+        let single: Vec<f32> = numbers::<f32>(&vectors)
+            .split(',')
+            .map(|n| n.parse().unwrap())
+            .collect();
+        assert_eq!(
+            single,
+            vectors.iter().flat_map(|v| v.as_vec3().to_array()).collect::<Vec<_>>()
+        );
     }
 }

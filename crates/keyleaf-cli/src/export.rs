@@ -68,19 +68,34 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
     let start = Instant::now();
     let format = output::extension(&arguments.output);
     let file = arguments.output.display();
-    ensure!(["obj", "ply", "stl"].contains(&format.as_str()), "{file}: unknown model type '{format}'; expected .obj, .ply or .stl");
-    ensure!(!arguments.normals || format != "stl", "{file}: .stl has no normals of vertices; expected .obj or .ply");
+    ensure!(
+        ["obj", "ply", "stl"].contains(&format.as_str()),
+        "{file}: unknown model type '{format}'; expected .obj, .ply or .stl"
+    );
+    ensure!(
+        !arguments.normals || format != "stl",
+        "{file}: .stl has no normals of vertices; expected .obj or .ply"
+    );
     output::ensure_writable(&arguments.output)?;
     let mut loaded = arguments.scene.load(quiet)?;
-    let (_, view) = arguments.view.view(&loaded)?;
     if let Some(level) = arguments.uniform {
         make_room(&mut loaded, level)?;
     }
     let gpu = session::device()?;
-    let mut stage = session::stage(&gpu, &loaded, StageLook { show: Show::Level, ..StageLook::default() })?;
+    let mut stage = session::stage(
+        &gpu,
+        &loaded,
+        StageLook {
+            show: Show::Level,
+            ..StageLook::default()
+        },
+    )?;
     match arguments.uniform {
         Some(level) => set_uniform(&gpu, &mut stage, level)?,
-        None => drop(session::settle(&gpu, &mut stage, &view, arguments.frames, quiet)?),
+        None => {
+            let (_, view) = arguments.view.view(&loaded)?;
+            session::settle(&gpu, &mut stage, &view, arguments.frames, quiet)?;
+        }
     }
     let mut all = Triangles::default();
     let mut leaves = 0;
@@ -102,7 +117,9 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
         }))?;
     } else {
         let [leaves, vertices, triangles] = [leaves, vertices, triangles].map(|n| thousands(n as u64));
-        output::print(&format!("{file}: {leaves} leaves, {vertices} vertices, {triangles} triangles, {seconds:.1} s"))?;
+        output::print(&format!(
+            "{file}: {leaves} leaves, {vertices} vertices, {triangles} triangles, {seconds:.1} s"
+        ))?;
     }
     Ok(Outcome::Done)
 }
@@ -111,11 +128,18 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
 fn make_room(loaded: &mut Loaded, level: u32) -> anyhow::Result<()> {
     for object in &mut loaded.objects {
         let deepest = MAX_LEVEL - object.settings.base_grid;
-        ensure!(level <= deepest, "level {level} is too deep: with base grid {} at most {deepest}", object.settings.base_grid);
+        ensure!(
+            level <= deepest,
+            "level {level} is too deep: with base grid {} at most {deepest}",
+            object.settings.base_grid
+        );
         let leaves = u128::from(object.surface.topology().half_edge_count()) << (2 * level);
         if leaves > MAX_CAPACITY.into() {
             let least = object.surface.topology().half_edge_count();
-            let fits = (0..level).rev().find(|l| u128::from(least) << (2 * l) <= MAX_CAPACITY.into()).unwrap_or(0);
+            let fits = (0..level)
+                .rev()
+                .find(|l| u128::from(least) << (2 * l) <= MAX_CAPACITY.into())
+                .unwrap_or(0);
             bail!(
                 "surface {}: {least} roots at level {level} are {leaves} leaves, more than the {MAX_CAPACITY} that a quadtree holds: \
                  expected at most level {fits}",
@@ -142,12 +166,28 @@ fn set_uniform(gpu: &Headless, stage: &mut Stage, level: u32) -> anyhow::Result<
 }
 
 /// Adds the triangles of a quadtree; the number of leaves that they belong to.
-fn add(gpu: &Headless, quadtree: &Quadtree, arguments: &Arguments, all: &mut Triangles, quiet: bool) -> anyhow::Result<usize> {
-    let inspector = Inspector::new(&gpu.device, &Quadtree::kind(quadtree.surface().as_ref(), quadtree.settings()))?;
+fn add(
+    gpu: &Headless,
+    quadtree: &Quadtree,
+    arguments: &Arguments,
+    all: &mut Triangles,
+    quiet: bool,
+) -> anyhow::Result<usize> {
+    let inspector = Inspector::new(
+        &gpu.device,
+        &Quadtree::kind(quadtree.surface().as_ref(), quadtree.settings()),
+    )?;
     let snapshot = quadtree.read_back(&gpu.device, &gpu.queue)?;
     let all_slots = || {
-        let odd = |slot: u32| snapshot.leaves[slot as usize].place().digit().is_some_and(|digit| digit & 1 == 1);
-        (0..snapshot.leaves.len() as u32).filter(|&slot| !(odd(slot) && snapshot.is_pair(slot as usize))).collect()
+        let odd = |slot: u32| {
+            snapshot.leaves[slot as usize]
+                .place()
+                .digit()
+                .is_some_and(|digit| digit & 1 == 1)
+        };
+        (0..snapshot.leaves.len() as u32)
+            .filter(|&slot| !(odd(slot) && snapshot.is_pair(slot as usize)))
+            .collect()
     };
     let whole = arguments.no_cull || arguments.uniform.is_some();
     let mut slots: Vec<u32> = if whole { all_slots() } else { snapshot.visible.clone() };
@@ -159,7 +199,10 @@ fn add(gpu: &Headless, quadtree: &Quadtree, arguments: &Arguments, all: &mut Tri
     let topology: &Topology = quadtree.surface().topology();
     let first = all.positions.len();
     let points = slots.len() as u64 * grid.vertices.len() as u64 + first as u64;
-    ensure!(u32::try_from(points).is_ok(), "{points} vertices are more than a model can hold: expected fewer leaves");
+    ensure!(
+        u32::try_from(points).is_ok(),
+        "{points} vertices are more than a model can hold: expected fewer leaves"
+    );
     let mut welder = Welder::with_capacity(slots.len() * grid.vertices.len() / 2);
     let bar = progress::bar(slots.len() as u64, "evaluating", quiet);
     for piece in slots.chunks(PIECE) {
@@ -183,9 +226,15 @@ fn add(gpu: &Headless, quadtree: &Quadtree, arguments: &Arguments, all: &mut Tri
                     index as u32
                 })
                 .collect();
-            let corners = grid.indices.as_chunks::<3>().0.iter().map(|t| t.map(|v| indices[usize::from(v)]));
+            let corners = grid
+                .indices
+                .as_chunks::<3>()
+                .0
+                .iter()
+                .map(|t| t.map(|v| indices[usize::from(v)]));
             // An object that is mirrored keeps its outside.
-            all.triangles.extend(corners.map(|[a, b, c]| if placed.is_mirrored { [a, c, b] } else { [a, b, c] }));
+            all.triangles
+                .extend(corners.map(|[a, b, c]| if placed.is_mirrored { [a, c, b] } else { [a, b, c] }));
         }
         bar.inc(piece.len() as u64);
     }
@@ -219,7 +268,11 @@ impl Placed {
     fn position(&self, p: [f32; 3]) -> [f32; 3] {
         let object = DVec3::from(p.map(f64::from)) + self.origin;
         // Adding zero turns -0 into +0.
-        (self.world_from_object.transform_point3(object) + DVec3::ZERO).as_vec3().to_array()
+        self.world_from_object
+            .transform_point3(object)
+            .as_vec3()
+            .to_array()
+            .map(|c| c + 0.0)
     }
 
     fn normal(&self, n: [f32; 3]) -> DVec3 {

@@ -20,8 +20,16 @@ pub fn print_json(value: &impl Serialize) -> anyhow::Result<()> {
 
 /// Says no before long work whose result could not be written.
 pub fn ensure_writable(file: &Path) -> anyhow::Result<()> {
-    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    ensure!(folder.is_dir(), "{}: there is no folder {}", file.display(), folder.display());
+    let folder = file
+        .parent()
+        .filter(|folder| !folder.as_os_str().is_empty())
+        .unwrap_or(Path::new("."));
+    ensure!(
+        folder.is_dir(),
+        "{}: there is no folder {}",
+        file.display(),
+        folder.display()
+    );
     ensure!(!file.is_dir(), "{}: this is a folder", file.display());
     Ok(())
 }

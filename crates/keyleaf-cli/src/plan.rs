@@ -38,18 +38,33 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
 }
 
 fn text(plan: &Plan) -> String {
-    let effects = if plan.effects.is_empty() { "none".to_owned() } else { plan.effects.join(", ") };
+    let effects = if plan.effects.is_empty() {
+        "none".to_owned()
+    } else {
+        plan.effects.join(", ")
+    };
     let mut parts: Vec<String> = plan.surfaces.iter().map(surface).collect();
     if !plan.modules.is_empty() {
         parts.push(format!("for all surfaces\n{}", modules(&plan.modules)));
     }
-    parts.push(format!("effects: {effects}\nall buffers and textures: {} bytes", thousands(plan.bytes)));
+    parts.push(format!(
+        "effects: {effects}\nall buffers and textures: {} bytes",
+        thousands(plan.bytes)
+    ));
     parts.join("\n\n")
 }
 
 fn surface(surface: &PlannedSurface) -> String {
-    let buffers: Vec<Vec<String>> = surface.buffers.iter().map(|b| vec![b.name.clone(), thousands(b.bytes)]).collect();
-    let history = if surface.history_dependent { ", history-dependent" } else { "" };
+    let buffers: Vec<Vec<String>> = surface
+        .buffers
+        .iter()
+        .map(|b| vec![b.name.clone(), thousands(b.bytes)])
+        .collect();
+    let history = if surface.history_dependent {
+        ", history-dependent"
+    } else {
+        ""
+    };
     format!(
         "surface {}: {}, metric {}{history}\n{} faces, {} roots, {} leaves at most ({:.1} bytes a leaf), level {} at most, {} \
          triangles a leaf\n\n{}\n\n{}",
@@ -68,7 +83,9 @@ fn surface(surface: &PlannedSurface) -> String {
 }
 
 fn modules(modules: &[PlannedModule]) -> String {
-    let rows: Vec<Vec<String>> =
-        modules.iter().map(|m| vec![m.name.clone(), m.pipelines.join(", "), m.files.join(", ")]).collect();
+    let rows: Vec<Vec<String>> = modules
+        .iter()
+        .map(|m| vec![m.name.clone(), m.pipelines.join(", "), m.files.join(", ")])
+        .collect();
     table::format(&["pass", "pipelines", "shader files"], &rows)
 }

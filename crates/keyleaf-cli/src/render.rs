@@ -1,16 +1,17 @@
 //! `keyleaf render`: one headless frame.
 
+use crate::Outcome;
 use crate::arguments::{SceneArguments, ViewArguments};
 use crate::output::{self, thousands};
 use crate::session::{self, DeviceReport};
 use crate::timing::{self, Timer};
-use crate::Outcome;
 use anyhow::ensure;
 use clap::{Args, ValueEnum};
 use glam::{DVec3, UVec2};
 use image::{DynamicImage, ImageBuffer, ImageFormat};
-use keyleaf::View;
-use keyleaf_stage::{Canvas, Loaded, Show, StageLook};
+use keyleaf::headless::Headless;
+use keyleaf::{KeyleafError, View};
+use keyleaf_stage::{Canvas, Loaded, Show, Stage, StageLook};
 use serde_json::json;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -80,7 +81,11 @@ impl Channel {
             Self::Level => Show::Level,
             Self::Position => Show::Position,
         };
-        StageLook { show, wireframe: overlay.wireframe, level_tint: overlay.level_tint }
+        StageLook {
+            show,
+            wireframe: overlay.wireframe,
+            level_tint: overlay.level_tint,
+        }
     }
 }
 
@@ -89,7 +94,10 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
     let start = Instant::now();
     let format = format(&arguments.output, arguments.channel)?;
     let is_overlay = arguments.overlay.wireframe || arguments.overlay.level_tint;
-    ensure!(arguments.channel == Channel::Color || !is_overlay, "--wireframe and --level-tint need the channel color");
+    ensure!(
+        arguments.channel == Channel::Color || !is_overlay,
+        "--wireframe and --level-tint need the channel color"
+    );
     output::ensure_writable(&arguments.output)?;
     let loaded = arguments.scene.load(quiet)?;
     let (camera, view) = arguments.view.view(&loaded)?;
@@ -97,11 +105,19 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
     let gpu = session::device()?;
     let look = arguments.channel.look(arguments.overlay);
     let mut stage = session::stage(&gpu, &loaded, look)?;
-    let canvas = Canvas::new(&gpu.device, arguments.view.size, stage.target())?;
+    let (size, limit) = (arguments.view.size, gpu.device.limits().max_texture_dimension_2d);
+    ensure!(
+        size.max_element() <= limit,
+        "--size {}x{}: this device draws at most {limit} pixels a side",
+        size.x,
+        size.y
+    );
+    let canvas = Canvas::new(&gpu.device, size, stage.target())?;
+    compile(&gpu, &mut stage, &view)?;
     let settled = session::settle(&gpu, &mut stage, &view, arguments.frames, quiet)?;
     let timer = Timer::new(&gpu, &stage);
     let frame = timing::frame(&gpu, &mut stage, Some(&canvas), &view, timer.as_ref())?;
-    let bytes = encode(canvas.read(&gpu)?, arguments.view.size, look.show, format, &view, &loaded)?;
+    let bytes = encode(canvas.read(&gpu)?, size, look.show, format, &view, &loaded)?;
     output::write(&arguments.output, &bytes)?;
 
     let device = DeviceReport::new(&gpu);
@@ -111,7 +127,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
         let draw = frame.draw.unwrap_or_default();
         output::print_json(&json!({
             "device": device.device, "driver": device.driver, "backend": device.backend, "software": device.software,
-            "scene": arguments.scene.scene, "picture": arguments.output, "size": arguments.view.size.to_array(),
+            "scene": arguments.scene.scene, "picture": arguments.output, "size": size.to_array(),
             "camera": camera, "frames": settled.frames, "settled": settled.is_settled,
             "leaves": statistics.leaves, "visible": statistics.visible, "triangles": statistics.triangles,
             "starved": statistics.starved, "threshold_factor": statistics.threshold_factor,
@@ -127,8 +143,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
         output::print(&format!(
             "{}: {}x{}, {} leaves, {} visible, {} triangles{starved}, {seconds:.1} s on {}",
             arguments.output.display(),
-            arguments.view.size.x,
-            arguments.view.size.y,
+            size.x,
+            size.y,
             thousands(statistics.leaves.into()),
             thousands(statistics.visible.into()),
             thousands(statistics.triangles),
@@ -138,18 +154,41 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
     Ok(Outcome::Done)
 }
 
+/// Draws the roots on a few pixels: drivers compile shaders at their first use, which is no part of what a pass costs.
+fn compile(gpu: &Headless, stage: &mut Stage, view: &View) -> Result<(), KeyleafError> {
+    session::update(gpu, stage, view)?;
+    let canvas = Canvas::new(&gpu.device, UVec2::splat(8), stage.target())?;
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    canvas.draw(&mut encoder, stage, view, None);
+    gpu.queue.submit([encoder.finish()]);
+    session::wait(gpu)
+}
+
 /// The format that a name asks for, if the channel has it.
 fn format(file: &Path, channel: Channel) -> anyhow::Result<ImageFormat> {
     match output::extension(file).as_str() {
         "png" => Ok(ImageFormat::Png),
         "exr" if channel == Channel::Position => Ok(ImageFormat::OpenExr),
-        "exr" => anyhow::bail!("{}: only the channel position is written as .exr; expected .png", file.display()),
-        other => anyhow::bail!("{}: unknown picture type '{other}'; expected .png, or .exr for positions", file.display()),
+        "exr" => anyhow::bail!(
+            "{}: only the channel position is written as .exr; expected .png",
+            file.display()
+        ),
+        other => anyhow::bail!(
+            "{}: unknown picture type '{other}'; expected .png, or .exr for positions",
+            file.display()
+        ),
     }
 }
 
 /// A picture file from what was read back.
-fn encode(pixels: Vec<u8>, size: UVec2, show: Show, format: ImageFormat, view: &View, loaded: &Loaded) -> anyhow::Result<Vec<u8>> {
+fn encode(
+    pixels: Vec<u8>,
+    size: UVec2,
+    show: Show,
+    format: ImageFormat,
+    view: &View,
+    loaded: &Loaded,
+) -> anyhow::Result<Vec<u8>> {
     let whole = || anyhow::anyhow!("the picture read back has not {}x{} pixels", size.x, size.y);
     let picture = if show == Show::Position {
         let floats: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&pixels);
@@ -166,13 +205,20 @@ fn encode(pixels: Vec<u8>, size: UVec2, show: Show, format: ImageFormat, view: &
             let extent = (high - low).max(DVec3::splat(f64::MIN_POSITIVE));
             let part = |p: DVec3| ((p - low) / extent).clamp(DVec3::ZERO, DVec3::ONE) * f64::from(u16::MAX);
             let texel = |p: Option<DVec3>| {
-                p.map_or([0; 4], |p| part(p).round().extend(f64::from(u16::MAX)).to_array().map(|c| c as u16))
+                p.map_or([0; 4], |p| {
+                    part(p).round().extend(f64::from(u16::MAX)).to_array().map(|c| c as u16)
+                })
             };
             let texels: Vec<u16> = positions.flat_map(texel).collect();
             ImageBuffer::from_raw(size.x, size.y, texels).map(DynamicImage::ImageRgba16)
         }
     } else {
-        let colours = pixels.as_chunks::<4>().0.iter().flat_map(|[r, g, b, _]| [*r, *g, *b]).collect();
+        let colours = pixels
+            .as_chunks::<4>()
+            .0
+            .iter()
+            .flat_map(|[r, g, b, _]| [*r, *g, *b])
+            .collect();
         ImageBuffer::from_raw(size.x, size.y, colours).map(DynamicImage::ImageRgb8)
     };
     let mut bytes = Cursor::new(Vec::new());

@@ -46,7 +46,11 @@ impl DeviceReport {
             backend: info.backend.to_string(),
             device: info.name,
             software,
-            times: if software { "of a software device on the CPU: not a GPU time" } else { "of a GPU" },
+            times: if software {
+                "of a software device on the CPU: not a GPU time"
+            } else {
+                "of a GPU"
+            },
         }
     }
 }
@@ -67,13 +71,18 @@ pub fn update(gpu: &Headless, stage: &mut Stage, view: &View) -> Result<Statisti
 
 /// Figures of the frame that was waited for.
 pub fn statistics(stage: &mut Stage) -> Result<Statistics, KeyleafError> {
-    stage.statistics().ok_or_else(|| KeyleafError::ReadBack("statistics", "they did not arrive".to_owned()))
+    stage
+        .statistics()
+        .ok_or_else(|| KeyleafError::ReadBack("statistics", "they did not arrive".to_owned()))
 }
 
 /// Waits until the device has done all that was submitted.
 pub fn wait(gpu: &Headless) -> Result<(), KeyleafError> {
     let failed = |error: wgpu::PollError| KeyleafError::ReadBack("the frame", error.to_string());
-    gpu.device.poll(wgpu::PollType::wait_indefinitely()).map(|_| ()).map_err(failed)
+    gpu.device
+        .poll(wgpu::PollType::wait_indefinitely())
+        .map(|_| ())
+        .map_err(failed)
 }
 
 /// How far a stage was refined.
@@ -94,8 +103,19 @@ const STARVED_QUIET_FRAMES: u32 = 12;
 ///
 /// From the roots a settled result takes a pass a level to split and a few for requests, DESIGN section 3; a starved one takes
 /// four more for each step of pressure.
-pub fn settle(gpu: &Headless, stage: &mut Stage, view: &View, frames: Option<u32>, quiet: bool) -> anyhow::Result<Settled> {
-    let deepest = stage.objects.iter().map(|o| o.quadtree.settings().max_level).max().unwrap_or(0);
+pub fn settle(
+    gpu: &Headless,
+    stage: &mut Stage,
+    view: &View,
+    frames: Option<u32>,
+    quiet: bool,
+) -> anyhow::Result<Settled> {
+    let deepest = stage
+        .objects
+        .iter()
+        .map(|o| o.quadtree.settings().max_level)
+        .max()
+        .unwrap_or(0);
     let most = frames.unwrap_or(4 * (2 * deepest + 8)).max(1);
     let bar = progress::bar(most.into(), "refining", quiet);
     let (mut unchanged, mut pressure) = (0, 0.0);
@@ -105,10 +125,18 @@ pub fn settle(gpu: &Headless, stage: &mut Stage, view: &View, frames: Option<u32
         let is_still = statistics.splits + statistics.merges == 0 && statistics.threshold_factor == pressure;
         unchanged = if is_still { unchanged + 1 } else { 0 };
         pressure = statistics.threshold_factor;
-        let is_settled = unchanged >= if statistics.unmet == 0 { QUIET_FRAMES } else { STARVED_QUIET_FRAMES };
+        let is_settled = unchanged
+            >= if statistics.unmet == 0 {
+                QUIET_FRAMES
+            } else {
+                STARVED_QUIET_FRAMES
+            };
         if frame == most || (frames.is_none() && is_settled) {
             bar.finish_and_clear();
-            return Ok(Settled { frames: frame, is_settled });
+            return Ok(Settled {
+                frames: frame,
+                is_settled,
+            });
         }
     }
     unreachable!("the loop has no other end")

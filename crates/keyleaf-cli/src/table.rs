@@ -11,16 +11,31 @@ pub fn format(head: &[&str], rows: &[Vec<String>]) -> String {
         let number = |text: String| text.chars().all(|c| c.is_ascii_digit() || ".,-% ".contains(c));
         rows.iter().all(|row| number(cell(row, column)))
     };
-    let widths: Vec<(usize, bool)> = (0..head.len()).map(|column| (width(column), is_number(column))).collect();
+    let widths: Vec<(usize, bool)> = (0..head.len())
+        .map(|column| (width(column), is_number(column)))
+        .collect();
     let line = |cells: Vec<String>| {
         let padded = cells.iter().zip(&widths).map(|(cell, (width, right))| {
-            if *right { format!("{cell:>width$}") } else { format!("{cell:<width$}") }
+            if *right {
+                format!("{cell:>width$}")
+            } else {
+                format!("{cell:<width$}")
+            }
         });
         padded.collect::<Vec<_>>().join("  ").trim_end().to_owned()
     };
     let mut lines = vec![line(head.iter().map(|h| (*h).to_owned()).collect())];
-    lines.push(widths.iter().map(|(width, _)| "-".repeat(*width)).collect::<Vec<_>>().join("  "));
-    lines.extend(rows.iter().map(|row| line((0..head.len()).map(|column| cell(row, column)).collect())));
+    lines.push(
+        widths
+            .iter()
+            .map(|(width, _)| "-".repeat(*width))
+            .collect::<Vec<_>>()
+            .join("  "),
+    );
+    lines.extend(
+        rows.iter()
+            .map(|row| line((0..head.len()).map(|column| cell(row, column)).collect())),
+    );
     lines.join("\n")
 }
 

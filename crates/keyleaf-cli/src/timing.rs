@@ -35,7 +35,12 @@ impl Timer {
             usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
             mapped_at_creation: false,
         });
-        Some(Self { queries, resolved, period: f64::from(gpu.queue.get_timestamp_period()) * 1e-6, surfaces })
+        Some(Self {
+            queries,
+            resolved,
+            period: f64::from(gpu.queue.get_timestamp_period()) * 1e-6,
+            surfaces,
+        })
     }
 
     fn of_update(&self, surface: usize) -> wgpu::ComputePassTimestampWrites<'_> {
@@ -63,7 +68,12 @@ impl Timer {
         let size = u64::from(passes.end - passes.start) * 16;
         let bytes = read_back::read(&gpu.device, &gpu.queue, "timestamps", &self.resolved, 0, size)?;
         let ticks: Vec<u64> = bytemuck::pod_collect_to_vec(&bytes);
-        let all: u64 = ticks.as_chunks::<2>().0.iter().map(|[begin, end]| end.saturating_sub(*begin)).sum();
+        let all: u64 = ticks
+            .as_chunks::<2>()
+            .0
+            .iter()
+            .map(|[begin, end]| end.saturating_sub(*begin))
+            .sum();
         Ok(all as f64 * self.period)
     }
 }
@@ -112,7 +122,12 @@ pub fn frame(
         })?),
         None => None,
     };
-    Ok(TimedFrame { update, draw, wall: begin.elapsed(), statistics: session::statistics(stage)? })
+    Ok(TimedFrame {
+        update,
+        draw,
+        wall: begin.elapsed(),
+        statistics: session::statistics(stage)?,
+    })
 }
 
 /// Records, submits and waits.
@@ -135,7 +150,11 @@ fn part(
         Some(timer) => timer.read(gpu, passes)?,
         None => wall.as_secs_f64() * 1e3,
     };
-    Ok(Part { ms, cpu, record: recorded })
+    Ok(Part {
+        ms,
+        cpu,
+        record: recorded,
+    })
 }
 
 /// What milliseconds are measured by.

@@ -57,10 +57,10 @@ pub struct Measure {
     pub size: f32,
     /// Radius of the ball for the guard band, object units.
     pub guard: f32,
-    /// Numerator of the metric of the parent; for child 0 only.
+    /// Numerator of the metric of the parent; for even children only.
     pub parent_size: f32,
-    /// Padding.
-    pub unused: f32,
+    /// Radius of the culling ball of the parent; for even children only.
+    pub parent_radius: f32,
 }
 
 /// Flags of a state word (its low seven bits hold these and the digit; the others are the published wish).

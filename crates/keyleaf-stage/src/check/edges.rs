@@ -79,11 +79,21 @@ pub(super) fn check<E>(
     for slots in leaves.drawn.chunks(PIECE) {
         let emitted = emit(slots)?;
         let count = grid.vertices.len();
-        for ((&slot, positions), normals) in
-            slots.iter().zip(emitted.positions.chunks(count)).zip(emitted.normals.chunks(count))
+        for ((&slot, positions), normals) in slots
+            .iter()
+            .zip(emitted.positions.chunks(count))
+            .zip(emitted.normals.chunks(count))
         {
-            let Some(place) = leaves.places[slot as usize] else { continue };
-            let drawn = Drawn { slot, place, is_pair: snapshot.is_pair(slot as usize), positions, normals };
+            let Some(place) = leaves.places[slot as usize] else {
+                continue;
+            };
+            let drawn = Drawn {
+                slot,
+                place,
+                is_pair: snapshot.is_pair(slot as usize),
+                positions,
+                normals,
+            };
             check_vertices(&drawn, snapshot, leaves, sight, findings);
             matcher.add(&drawn, findings);
         }
@@ -95,26 +105,44 @@ pub(super) fn check<E>(
 /// The vertices along the boundary of the base grid, counter-clockwise from (0, 0).
 fn rim(grid: &BaseGrid, k: u32) -> Vec<([u32; 2], usize)> {
     let n = 1 << k;
-    let corners = (0..n).map(|i| [i, 0]).chain((0..n).map(|i| [n - i, i])).chain((0..n).map(|i| [0, n - i]));
+    let corners = (0..n)
+        .map(|i| [i, 0])
+        .chain((0..n).map(|i| [n - i, i]))
+        .chain((0..n).map(|i| [0, n - i]));
     let index = |[i, j]: [u32; 2]| grid.vertices.iter().position(|v| *v == i | j << 16);
     corners.filter_map(|at| Some((at, index(at)?))).collect()
 }
 
 /// Whether all vertices of a leaf are finite, and whether it is drawn if one of them is in view.
-fn check_vertices(drawn: &Drawn<'_>, snapshot: &Snapshot, leaves: &Leaves, sight: Option<&Sight>, findings: &mut Findings) {
+fn check_vertices(
+    drawn: &Drawn<'_>,
+    snapshot: &Snapshot,
+    leaves: &Leaves,
+    sight: Option<&Sight>,
+    findings: &mut Findings,
+) {
     let key = [snapshot.leaves[drawn.slot as usize].key];
     let finite = |v: &[f32; 3]| v.iter().all(|c| c.is_finite());
     let unit = |n: &[f32; 3]| (n.iter().map(|c| c * c).sum::<f32>().sqrt() - 1.0).abs() <= UNIT_TOLERANCE;
     if let Some(i) = drawn.positions.iter().position(|p| !finite(p)) {
-        findings.add(FindingKind::NonFinite, key, || format!("vertex {i} is at {:?}", drawn.positions[i]));
+        findings.add(FindingKind::NonFinite, key, || {
+            format!("vertex {i} is at {:?}", drawn.positions[i])
+        });
     }
     if let Some(i) = drawn.normals.iter().position(|n| !unit(n)) {
-        findings.add(FindingKind::NonFinite, key, || format!("the normal of vertex {i} is {:?}", drawn.normals[i]));
+        findings.add(FindingKind::NonFinite, key, || {
+            format!("the normal of vertex {i} is {:?}", drawn.normals[i])
+        });
     }
-    let Some(sight) = sight.filter(|_| !leaves.visible[drawn.slot as usize]) else { return };
+    let Some(sight) = sight.filter(|_| !leaves.visible[drawn.slot as usize]) else {
+        return;
+    };
     if let Some(i) = drawn.positions.iter().position(|p| sight.surely_sees(*p)) {
         findings.add(FindingKind::Culled, key, || {
-            format!("vertex {i} is in view, {} from the eye", sight.from_eye(drawn.positions[i]))
+            format!(
+                "vertex {i} is in view, {} from the eye",
+                sight.from_eye(drawn.positions[i])
+            )
         });
     }
 }
@@ -182,10 +210,16 @@ impl Matcher<'_> {
             [a, b] => a.is_forward != b.is_forward && !a.is_boundary && !b.is_boundary,
             _ => false,
         };
-        let unmatched: Vec<&[Edge]> =
-            self.edges.chunk_by(|a, b| a.ends == b.ends).filter(|same| !is_matched(same)).collect();
+        let unmatched: Vec<&[Edge]> = self
+            .edges
+            .chunk_by(|a, b| a.ends == b.ends)
+            .filter(|same| !is_matched(same))
+            .collect();
         let mut halves = QuickMap::default();
-        let junctions: Vec<bool> = unmatched.iter().map(|same| self.halve(self.ends(&same[0]), &mut halves)).collect();
+        let junctions: Vec<bool> = unmatched
+            .iter()
+            .map(|same| self.halve(self.ends(&same[0]), &mut halves))
+            .collect();
         for (same, is_junction) in unmatched.iter().zip(junctions) {
             let edge = &same[0];
             if !is_junction && halves.contains_key(&edge.ends) {
@@ -194,7 +228,11 @@ impl Matcher<'_> {
             let keys = same.iter().map(|edge| self.key(edge.slot));
             let forward = same.iter().filter(|edge| edge.is_forward).count();
             let ends = self.ends(edge);
-            let place = if edge.is_boundary { ", on a boundary of the mesh" } else { "" };
+            let place = if edge.is_boundary {
+                ", on a boundary of the mesh"
+            } else {
+                ""
+            };
             let (kind, text) = match (is_junction, same.len()) {
                 (true, _) => (FindingKind::TJunction, "has a vertex in its middle on the other side"),
                 (false, 1) => (FindingKind::Crack, "has no other side"),
@@ -220,9 +258,15 @@ impl Matcher<'_> {
         if from == to || sum.iter().any(|s| s % 2 != 0) {
             return false;
         }
-        let middle = RootPoint { x: (sum[0] / 2) as u32, y: (sum[1] / 2) as u32, ..from };
+        let middle = RootPoint {
+            x: (sum[0] / 2) as u32,
+            y: (sum[1] / 2) as u32,
+            ..from
+        };
         let number = |point| self.welder.find(self.topology, point);
-        let (Some(a), Some(m), Some(b)) = (number(from), number(middle), number(to)) else { return false };
+        let (Some(a), Some(m), Some(b)) = (number(from), number(middle), number(to)) else {
+            return false;
+        };
         for ([x, y], part) in [([a, m], [from, middle]), ([m, b], [middle, to])] {
             halves.insert(u64::from(x.max(y)) << 32 | u64::from(x.min(y)), ());
             self.halve(part, halves);

@@ -107,7 +107,11 @@ impl Findings {
     pub fn add(&mut self, kind: FindingKind, keys: impl IntoIterator<Item = Key>, detail: impl FnOnce() -> String) {
         let count = self.counts.entry(kind).or_default();
         if *count < Self::LIMIT {
-            self.first.push(Finding { kind, keys: keys.into_iter().map(Key::without_flags).collect(), detail: detail() });
+            self.first.push(Finding {
+                kind,
+                keys: keys.into_iter().map(Key::without_flags).collect(),
+                detail: detail(),
+            });
         }
         *count += 1;
     }

@@ -30,9 +30,13 @@ pub(super) fn check(topology: &Topology, snapshot: &Snapshot, settings: &Setting
     let places: Vec<Option<Place>> = snapshot.leaves.iter().map(|leaf| node(topology, leaf)).collect();
     for (slot, (leaf, place)) in snapshot.leaves.iter().zip(&places).enumerate() {
         if place.is_none() {
-            findings.add(FindingKind::Key, [], || format!("slot {slot} is no node of the mesh: {leaf:?}"));
+            findings.add(FindingKind::Key, [], || {
+                format!("slot {slot} is no node of the mesh: {leaf:?}")
+            });
         } else if leaf.key.place().ok() != *place {
-            findings.add(FindingKind::Key, [leaf.key], || format!("slot {slot} is decoded as {place:?}"));
+            findings.add(FindingKind::Key, [leaf.key], || {
+                format!("slot {slot} is decoded as {place:?}")
+            });
         }
     }
     partition(topology, &places, settings, findings);
@@ -54,7 +58,12 @@ fn counters(snapshot: &Snapshot, settings: &Settings, findings: &mut Findings) {
             findings.add(FindingKind::Counter, [], text);
         }
     };
-    wrong(control.lost == 0, &|| format!("{} look-ups failed although the invariants promise a leaf", control.lost));
+    wrong(control.lost == 0, &|| {
+        format!(
+            "{} look-ups failed although the invariants promise a leaf",
+            control.lost
+        )
+    });
     wrong(control.leaves <= settings.capacity, &|| {
         format!("{} leaves in buffers for {}", control.leaves, settings.capacity)
     });
@@ -69,21 +78,39 @@ fn partition(topology: &Topology, places: &[Option<Place>], settings: &Settings,
             Violation::Duplicate(place) => (K::DuplicateLeaf, vec![place], "is there more than once"),
             Violation::Overlap(place) => (K::Overlap, vec![place], "is a leaf and has leaves inside it"),
             Violation::Gap(place) => (K::LostLeaf, vec![place], "is covered by no leaf"),
-            Violation::HalfDiamond { .. } | Violation::Unbalanced { .. } if settings.balance == Balance::Off => continue,
-            Violation::HalfDiamond { split, whole } => {
-                (K::HalfDiamond, vec![split, whole], "is split, but not the other half of its diamond")
+            Violation::HalfDiamond { .. } | Violation::Unbalanced { .. } if settings.balance == Balance::Off => {
+                continue;
             }
-            Violation::Unbalanced { split, whole } => {
-                (K::Unbalanced, vec![split, whole], "is split, but not the larger node across its outer leg")
-            }
+            Violation::HalfDiamond { split, whole } => (
+                K::HalfDiamond,
+                vec![split, whole],
+                "is split, but not the other half of its diamond",
+            ),
+            Violation::Unbalanced { split, whole } => (
+                K::Unbalanced,
+                vec![split, whole],
+                "is split, but not the larger node across its outer leg",
+            ),
         };
-        findings.add(kind, nodes.iter().map(|place| place.key()), || format!("the first {text}"));
+        findings.add(kind, nodes.iter().map(|place| place.key()), || {
+            format!("the first {text}")
+        });
     }
 }
 
 /// Digits and pair flags.
-fn states(topology: &Topology, snapshot: &Snapshot, places: &[Option<Place>], settings: &Settings, findings: &mut Findings) {
-    let there: QuickMap<u128, ()> = places.iter().flatten().map(|p| (place_number(topology, *p), ())).collect();
+fn states(
+    topology: &Topology,
+    snapshot: &Snapshot,
+    places: &[Option<Place>],
+    settings: &Settings,
+    findings: &mut Findings,
+) {
+    let there: QuickMap<u128, ()> = places
+        .iter()
+        .flatten()
+        .map(|p| (place_number(topology, *p), ()))
+        .collect();
     for (slot, place) in places.iter().enumerate() {
         let Some(place) = *place else { continue };
         let word = snapshot.states[slot];
@@ -112,20 +139,26 @@ fn draw_list(snapshot: &Snapshot, drawn: &[u32], settings: &Settings, findings: 
     let mut visible = vec![false; snapshot.leaves.len()];
     for &slot in &snapshot.visible {
         let Some(listed) = visible.get_mut(slot as usize) else {
-            findings.add(FindingKind::DrawList, [], || format!("slot {slot} is drawn, behind the last leaf"));
+            findings.add(FindingKind::DrawList, [], || {
+                format!("slot {slot} is drawn, behind the last leaf")
+            });
             continue;
         };
         let key = [snapshot.leaves[slot as usize].key];
         if std::mem::replace(listed, true) {
             findings.add(FindingKind::DrawList, key, || format!("slot {slot} is drawn twice"));
         } else if !is_drawn[slot as usize] {
-            findings.add(FindingKind::DrawList, key, || format!("slot {slot} is drawn, the odd half of a pair"));
+            findings.add(FindingKind::DrawList, key, || {
+                format!("slot {slot} is drawn, the odd half of a pair")
+            });
         }
     }
     if !settings.cull {
         for slot in drawn.iter().copied().filter(|&slot| !visible[slot as usize]) {
             let key = [snapshot.leaves[slot as usize].key];
-            findings.add(FindingKind::DrawList, key, || format!("slot {slot} is not drawn, and nothing is culled"));
+            findings.add(FindingKind::DrawList, key, || {
+                format!("slot {slot} is not drawn, and nothing is culled")
+            });
         }
     }
     visible

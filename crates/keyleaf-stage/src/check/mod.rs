@@ -28,7 +28,7 @@ mod table;
 mod tests;
 mod weld;
 
-pub use findings::{Finding, Findings, FindingKind};
+pub use findings::{Finding, FindingKind, Findings};
 pub use picture::PictureCheck;
 pub use sight::Sight;
 pub use weld::{Welder, grid_point, site_number};
@@ -63,9 +63,18 @@ impl Checker {
     /// [`KeyleafError::Compose`] if a shader file is missing.
     pub fn new(gpu: &Headless, stage: &Stage) -> Result<Self, KeyleafError> {
         let inspector = |quadtree: &Quadtree| {
-            Inspector::new(&gpu.device, &Quadtree::kind(quadtree.surface().as_ref(), quadtree.settings()))
+            Inspector::new(
+                &gpu.device,
+                &Quadtree::kind(quadtree.surface().as_ref(), quadtree.settings()),
+            )
         };
-        Ok(Self { inspectors: stage.objects.iter().map(|o| inspector(&o.quadtree)).collect::<Result<_, _>>()? })
+        Ok(Self {
+            inspectors: stage
+                .objects
+                .iter()
+                .map(|o| inspector(&o.quadtree))
+                .collect::<Result<_, _>>()?,
+        })
     }
 
     /// Checks every surface of `stage` as its last update for `view` left it. Waits for the device.
@@ -75,7 +84,11 @@ impl Checker {
     pub fn frame(&self, gpu: &Headless, stage: &Stage, view: &View) -> Result<Vec<ObjectReport>, KeyleafError> {
         let object = |(object, inspector): (&crate::StageObject, &Inspector)| {
             let (statistics, findings) = quadtree(gpu, &object.quadtree, inspector, view)?;
-            Ok(ObjectReport { object: object.name.clone(), statistics, findings })
+            Ok(ObjectReport {
+                object: object.name.clone(),
+                statistics,
+                findings,
+            })
         };
         stage.objects.iter().zip(&self.inspectors).map(object).collect()
     }
@@ -99,7 +112,13 @@ pub fn quadtree(
     let snapshot = quadtree.read_back(&gpu.device, &gpu.queue)?;
     let sight = Sight::new(view, quadtree.world_from_object(), quadtree.origin());
     let emit = |slots: &[u32]| inspector.emit(&gpu.device, &gpu.queue, quadtree, slots);
-    let findings = frame(quadtree.surface().topology(), &snapshot, quadtree.settings(), Some(&sight), emit)?;
+    let findings = frame(
+        quadtree.surface().topology(),
+        &snapshot,
+        quadtree.settings(),
+        Some(&sight),
+        emit,
+    )?;
     Ok((snapshot.statistics, findings))
 }
 

@@ -35,7 +35,11 @@ pub struct PictureCheck {
 impl PictureCheck {
     /// An empty scene seen by `view`.
     pub fn new(view: &View) -> Self {
-        Self { view: *view, patches: Vec::new(), rounding: 0.0 }
+        Self {
+            view: *view,
+            patches: Vec::new(),
+            rounding: 0.0,
+        }
     }
 
     /// Adds a drawn leaf: its vertices, and three indices a triangle, which leaves share.
@@ -44,9 +48,18 @@ impl PictureCheck {
         let centre = vertices.iter().sum::<DVec3>() / vertices.len().max(1) as f64;
         let radius = vertices.iter().map(|v| v.distance(centre)).fold(0.0, f64::max);
         // What is far from the eye or from the origin is rounded by as much.
-        let farthest = positions.iter().flatten().fold(0.0, |far: f64, c| far.max(f64::from(c.abs())));
+        let farthest = positions
+            .iter()
+            .flatten()
+            .fold(0.0, |far: f64, c| far.max(f64::from(c.abs())));
         self.rounding = self.rounding.max(ROUNDING * farthest * sight.stretch());
-        self.patches.push(Patch { key, vertices, indices: Arc::clone(indices), centre, radius });
+        self.patches.push(Patch {
+            key,
+            vertices,
+            indices: Arc::clone(indices),
+            centre,
+            radius,
+        });
     }
 
     /// Compares `samples` pixels of a picture of the channel `position`: four floats a pixel, row by row from the top.
@@ -74,7 +87,10 @@ impl PictureCheck {
         let middle = pixel.as_dvec2() + 0.5;
         if is_surface == 0.0 {
             let (key, depth) = self.clear_hit(middle, f64::INFINITY)?;
-            return Some((Some(key), format!("shows nothing, but a triangle is there at depth {depth}")));
+            return Some((
+                Some(key),
+                format!("shows nothing, but a triangle is there at depth {depth}"),
+            ));
         }
         let shown = DVec3::new(x.into(), y.into(), z.into());
         if !shown.is_finite() {
@@ -88,10 +104,16 @@ impl PictureCheck {
         }
         let distance = self.distance(shown, tolerance);
         if distance > tolerance {
-            return Some((None, format!("holds {shown}, which lies on no triangle (within {tolerance})")));
+            return Some((
+                None,
+                format!("holds {shown}, which lies on no triangle (within {tolerance})"),
+            ));
         }
         let (key, hit) = self.clear_hit(middle, depth - 2.0 * tolerance)?;
-        Some((Some(key), format!("shows depth {depth}, but there is a triangle in front of it at {hit}")))
+        Some((
+            Some(key),
+            format!("shows depth {depth}, but there is a triangle in front of it at {hit}"),
+        ))
     }
 
     /// World units that a pixel covers at a depth.
@@ -157,9 +179,14 @@ impl PictureCheck {
 
     /// Distance to the nearest triangle; what is farther than `enough` may be reported as infinite.
     fn distance(&self, p: DVec3, enough: f64) -> f64 {
-        let near = self.patches.iter().filter(|patch| patch.centre.distance(p) <= patch.radius + enough);
+        let near = self
+            .patches
+            .iter()
+            .filter(|patch| patch.centre.distance(p) <= patch.radius + enough);
         let triangles = near.flat_map(Patch::triangles);
-        triangles.map(|triangle| distance_to_triangle(p, triangle)).fold(f64::INFINITY, f64::min)
+        triangles
+            .map(|triangle| distance_to_triangle(p, triangle))
+            .fold(f64::INFINITY, f64::min)
     }
 }
 
@@ -191,7 +218,9 @@ fn distance_to_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> f64 {
         p.distance(from + along * t)
     };
     let normal = ab.cross(ac);
-    let inside = ab.cross(normal).dot(p - a) <= 0.0 && bc.cross(normal).dot(p - b) <= 0.0 && (-ac).cross(normal).dot(p - c) <= 0.0;
+    let inside = ab.cross(normal).dot(p - a) <= 0.0
+        && bc.cross(normal).dot(p - b) <= 0.0
+        && (-ac).cross(normal).dot(p - c) <= 0.0;
     if inside && normal != DVec3::ZERO {
         return normal.normalize().dot(p - a).abs();
     }

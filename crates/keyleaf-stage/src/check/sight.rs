@@ -30,13 +30,19 @@ impl Sight {
 
     /// The vertex in world axes, relative to the eye.
     pub fn from_eye(&self, vertex: [f32; 3]) -> DVec3 {
-        self.world_from_emitted.transform_point3(DVec3::from(vertex.map(f64::from))) - self.eye
+        self.world_from_emitted
+            .transform_point3(DVec3::from(vertex.map(f64::from)))
+            - self.eye
     }
 
     /// By how much lengths grow from object to world space, at most.
     pub fn stretch(&self) -> f64 {
         let m = self.world_from_emitted.matrix3;
-        [m.x_axis, m.y_axis, m.z_axis].iter().map(|axis| axis.length_squared()).sum::<f64>().sqrt()
+        [m.x_axis, m.y_axis, m.z_axis]
+            .iter()
+            .map(|axis| axis.length_squared())
+            .sum::<f64>()
+            .sqrt()
     }
 
     /// Whether a vertex lies inside the view volume by more than rounding.

@@ -26,7 +26,9 @@ pub(super) fn check(snapshot: &Snapshot, findings: &mut Findings) {
     let table = &snapshot.table;
     let mask = table.len().wrapping_sub(1);
     if !table.len().is_power_of_two() {
-        findings.add(FindingKind::Table, [], || format!("the table has {} entries, no power of two", table.len()));
+        findings.add(FindingKind::Table, [], || {
+            format!("the table has {} entries, no power of two", table.len())
+        });
         return;
     }
     let mut used = 0;
@@ -36,13 +38,21 @@ pub(super) fn check(snapshot: &Snapshot, findings: &mut Findings) {
         if word & SLOT_MASK == TOMBSTONE {
             continue;
         }
-        if snapshot.leaves.get(slot).is_none_or(|leaf| leaf.entry as usize != entry) {
-            findings.add(FindingKind::Table, [], || format!("entry {entry} names slot {slot}, which does not name it"));
+        if snapshot
+            .leaves
+            .get(slot)
+            .is_none_or(|leaf| leaf.entry as usize != entry)
+        {
+            findings.add(FindingKind::Table, [], || {
+                format!("entry {entry} names slot {slot}, which does not name it")
+            });
         }
     }
     if (snapshot.control.entries_used as usize) < used {
         let counted = snapshot.control.entries_used;
-        findings.add(FindingKind::Table, [], || format!("{used} entries are in use, {counted} are counted"));
+        findings.add(FindingKind::Table, [], || {
+            format!("{used} entries are in use, {counted} are counted")
+        });
     }
     for (slot, leaf) in snapshot.leaves.iter().enumerate() {
         let hash = place_hash(&leaf.place());
@@ -50,7 +60,10 @@ pub(super) fn check(snapshot: &Snapshot, findings: &mut Findings) {
         let entry = leaf.entry as usize;
         if leaf.entry == NO_ENTRY || table.get(entry) != Some(&expected) {
             findings.add(FindingKind::Table, [leaf.key], || {
-                format!("slot {slot} says that entry {entry} is its own, which holds {:?}", table.get(entry))
+                format!(
+                    "slot {slot} says that entry {entry} is its own, which holds {:?}",
+                    table.get(entry)
+                )
             });
             continue;
         }
@@ -58,7 +71,9 @@ pub(super) fn check(snapshot: &Snapshot, findings: &mut Findings) {
         let home = hash as usize & mask;
         let distance = entry.wrapping_sub(home) & mask;
         if (0..distance).any(|i| table[(home + i) & mask] == EMPTY) {
-            findings.add(FindingKind::Table, [leaf.key], || format!("no probe reaches slot {slot} in entry {entry}"));
+            findings.add(FindingKind::Table, [leaf.key], || {
+                format!("no probe reaches slot {slot} in entry {entry}")
+            });
         }
     }
 }

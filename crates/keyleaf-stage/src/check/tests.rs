@@ -14,7 +14,12 @@ fn mesh() -> Topology {
 }
 
 fn settings() -> Settings {
-    Settings { capacity: 4096, base_grid: 2, cull: false, ..Settings::default() }
+    Settings {
+        capacity: 4096,
+        base_grid: 2,
+        cull: false,
+        ..Settings::default()
+    }
 }
 
 /// A pseudo-random balanced refinement.
@@ -36,9 +41,16 @@ fn snapshot(topology: &Topology, places: &[Place]) -> Snapshot {
     let is_pair = |p: &Place| across_outer_leg(topology, *p).is_some_and(|c| there.contains(&c));
     let word = |p: &Place| u32::from(is_pair(p)) | p.digit().unwrap_or(state::ROOT_DIGIT) << state::DIGIT_SHIFT;
     let odd_half = |p: &Place| is_pair(p) && p.digit().is_some_and(|d| d & 1 == 1);
-    let visible: Vec<u32> = (0..places.len() as u32).filter(|&slot| !odd_half(&places[slot as usize])).collect();
+    let visible: Vec<u32> = (0..places.len() as u32)
+        .filter(|&slot| !odd_half(&places[slot as usize]))
+        .collect();
     let count = places.len() as u32;
-    let control = Control { leaves: count, visible: visible.len() as u32, entries_used: count, ..Control::default() };
+    let control = Control {
+        leaves: count,
+        visible: visible.len() as u32,
+        entries_used: count,
+        ..Control::default()
+    };
     Snapshot {
         leaves,
         states: places.iter().map(word).collect(),
@@ -73,7 +85,11 @@ fn emit(topology: &Topology, snapshot: &Snapshot, slots: &[u32]) -> Emitted {
         for v in BaseGrid::new(k).vertices {
             let point = grid_point(place, snapshot.is_pair(slot as usize), [v & 0xffff, v >> 16], k);
             let number = site_number(topology, point);
-            emitted.positions.push([number as u32 as f32, (number >> 32) as u32 as f32, (number >> 64) as f32]);
+            emitted.positions.push([
+                number as u32 as f32,
+                (number >> 32) as u32 as f32,
+                (number >> 64) as f32,
+            ]);
             emitted.normals.push([0.0, 1.0, 0.0]);
         }
     }
@@ -103,7 +119,11 @@ fn balanced_refinements_have_no_findings() {
     for seed in 0..20 {
         let places = refined(&topology, seed);
         let findings = check(&topology, &snapshot(&topology, &places));
-        assert!(findings.is_empty(), "seed {seed}, {} leaves: {findings:#?}", places.len());
+        assert!(
+            findings.is_empty(),
+            "seed {seed}, {} leaves: {findings:#?}",
+            places.len()
+        );
     }
 }
 
@@ -129,7 +149,10 @@ fn a_missing_leaf_is_found() {
     let mut places = refined(&topology, 1);
     places.remove(7);
     let found = kinds(&check(&topology, &snapshot(&topology, &places)));
-    assert!(found.contains(&FindingKind::LostLeaf) && found.contains(&FindingKind::Crack), "{found:?}");
+    assert!(
+        found.contains(&FindingKind::LostLeaf) && found.contains(&FindingKind::Crack),
+        "{found:?}"
+    );
 }
 
 #[test]
@@ -139,7 +162,10 @@ fn a_double_leaf_is_found() {
     let drawn = places.iter().copied().find(|p| p.digit() == Some(2)).unwrap(); // an even one is always drawn
     places.push(drawn);
     let found = kinds(&check(&topology, &snapshot(&topology, &places)));
-    assert!(found.contains(&FindingKind::DuplicateLeaf) && found.contains(&FindingKind::Overlap), "{found:?}");
+    assert!(
+        found.contains(&FindingKind::DuplicateLeaf) && found.contains(&FindingKind::Overlap),
+        "{found:?}"
+    );
 }
 
 #[test]
@@ -147,12 +173,18 @@ fn half_a_diamond_that_splits_alone_is_found() {
     let topology = mesh();
     let places = refined(&topology, 3);
     let deepest = places.iter().map(|p| p.level).max().unwrap();
-    let alone = places.iter().position(|p| p.level == deepest && h_is_inside(&topology, *p)).unwrap();
+    let alone = places
+        .iter()
+        .position(|p| p.level == deepest && h_is_inside(&topology, *p))
+        .unwrap();
     let mut broken = places.clone();
     let halves = broken.remove(alone).children();
     broken.extend(halves);
     let found = kinds(&check(&topology, &snapshot(&topology, &broken)));
-    assert!(found.contains(&FindingKind::HalfDiamond) && found.contains(&FindingKind::TJunction), "{found:?}");
+    assert!(
+        found.contains(&FindingKind::HalfDiamond) && found.contains(&FindingKind::TJunction),
+        "{found:?}"
+    );
 }
 
 fn h_is_inside(topology: &Topology, place: Place) -> bool {
@@ -186,9 +218,13 @@ fn every_wrong_pair_flag_is_found_as_such_and_as_a_crack() {
 fn other_bits_on_one_side_of_an_edge_are_a_crack() {
     let topology = mesh();
     let right = snapshot(&topology, &refined(&topology, 6));
-    let findings = check_with(&topology, &right, |e| e.positions[0][1] = f32::from_bits(e.positions[0][1].to_bits() + 1));
+    let findings = check_with(&topology, &right, |e| {
+        e.positions[0][1] = f32::from_bits(e.positions[0][1].to_bits() + 1)
+    });
     assert_eq!(kinds(&findings), [FindingKind::Crack]);
-    let findings = check_with(&topology, &right, |e| e.positions[0] = e.positions[0].map(|c| if c == 0.0 { -0.0 } else { c }));
+    let findings = check_with(&topology, &right, |e| {
+        e.positions[0] = e.positions[0].map(|c| if c == 0.0 { -0.0 } else { c })
+    });
     assert!(findings.is_empty() || kinds(&findings) == [FindingKind::Crack]);
 }
 
@@ -214,7 +250,10 @@ fn wrong_keys_states_lists_and_counters_are_found() {
     assert_eq!(broken(&|s| s.leaves[2].key = s.leaves[3].key), [FindingKind::Key]);
     assert!(broken(&|s| s.leaves[2].key = Key::from_words([0, 0, 77, 0])).contains(&FindingKind::Key));
     assert!(broken(&|s| s.leaves[2].origin[0] += 1).contains(&FindingKind::Key));
-    assert_eq!(broken(&|s| s.states[4] ^= 1 << state::DIGIT_SHIFT), [FindingKind::State]);
+    assert_eq!(
+        broken(&|s| s.states[4] ^= 1 << state::DIGIT_SHIFT),
+        [FindingKind::State]
+    );
     assert_eq!(broken(&|s| s.visible[0] = s.visible[1]), [FindingKind::DrawList]);
     assert_eq!(broken(&|s| s.visible[0] = u32::MAX), [FindingKind::DrawList]);
     assert_eq!(broken(&|s| s.control.lost = 1), [FindingKind::Counter]);
@@ -243,13 +282,19 @@ fn leaves_in_view_that_are_culled_are_found() {
     let topology = mesh();
     let mut snapshot = snapshot(&topology, &refined(&topology, 10));
     snapshot.visible.clear();
-    let culled = Settings { cull: true, ..settings() };
+    let culled = Settings {
+        cull: true,
+        ..settings()
+    };
     let view = View::look_at(DVec3::new(0.0, 0.0, 9.0), DVec3::ZERO, 1.0, 0.1, UVec2::new(64, 64));
     let sight = Sight::new(&view, &glam::DAffine3::IDENTITY, DVec3::ZERO);
     let at = |position: [f32; 3]| {
         let emit = |slots: &[u32]| {
             let count = slots.len() * BaseGrid::new(2).vertices.len();
-            Ok::<_, Infallible>(Emitted { positions: vec![position; count], normals: vec![[0.0, 1.0, 0.0]; count] })
+            Ok::<_, Infallible>(Emitted {
+                positions: vec![position; count],
+                normals: vec![[0.0, 1.0, 0.0]; count],
+            })
         };
         kinds(&frame(&topology, &snapshot, &culled, Some(&sight), emit).unwrap())
     };
@@ -263,8 +308,18 @@ fn two_triangles(view: &View) -> PictureCheck {
     let sight = Sight::new(view, &glam::DAffine3::IDENTITY, DVec3::ZERO);
     let mut check = PictureCheck::new(view);
     let indices = std::sync::Arc::from([0, 1, 2]);
-    check.add(Key::of_root(0, 0), &[[-50.0, -50.0, -4.0], [50.0, -50.0, -4.0], [0.0, 90.0, -4.0]], &indices, &sight);
-    check.add(Key::of_root(0, 1), &[[-99.0, -99.0, -2.0], [0.0, -99.0, -2.0], [0.0, 99.0, -2.0]], &indices, &sight);
+    check.add(
+        Key::of_root(0, 0),
+        &[[-50.0, -50.0, -4.0], [50.0, -50.0, -4.0], [0.0, 90.0, -4.0]],
+        &indices,
+        &sight,
+    );
+    check.add(
+        Key::of_root(0, 1),
+        &[[-99.0, -99.0, -2.0], [0.0, -99.0, -2.0], [0.0, 99.0, -2.0]],
+        &indices,
+        &sight,
+    );
     check
 }
 

@@ -81,7 +81,9 @@ pub struct Welder {
 impl Welder {
     /// A welder with room for `points` points.
     pub fn with_capacity(points: usize) -> Self {
-        Self { indices: QuickMap::with_capacity_and_hasher(points, Default::default()) }
+        Self {
+            indices: QuickMap::with_capacity_and_hasher(points, Default::default()),
+        }
     }
 
     /// The index of a point, and whether it is new.

@@ -18,9 +18,6 @@ const GROUP_SIZE: u32 = 64u;
 const LEAVES_PER_INVOCATION: u32 = 8u;
 const NEAR_WISHES: u32 = 32u; // of the histogram: see Control.near
 const HISTOGRAM: u32 = 33u;
-// The far corner of a pair is sqrt 5 half hypotenuses from the centre of its even half; a guard ball reaches twice as far as the surface
-// can go in one.
-const PAIR_REACH: f32 = 1.25;
 const ONE_STEP_LOWER: f32 = 0.8408964; // 2^(-1/4)
 
 var<workgroup> emitted: atomic<u32>; // visible leaves, and candidates << 16, of the workgroup

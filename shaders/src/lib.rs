@@ -62,7 +62,9 @@ pub fn compose(roots: &[&str]) -> Result<String, ComposeError> {
 
 /// The files on the `// requires:` lines of a text.
 fn required(text: &str) -> impl Iterator<Item = &str> {
-    text.lines().filter_map(|line| line.strip_prefix("// requires:")).flat_map(|list| list.split(',').map(str::trim))
+    text.lines()
+        .filter_map(|line| line.strip_prefix("// requires:"))
+        .flat_map(|list| list.split(',').map(str::trim))
 }
 
 fn visit(file: &str, by: &str, order: &mut Vec<&'static str>) -> Result<(), ComposeError> {
@@ -70,7 +72,10 @@ fn visit(file: &str, by: &str, order: &mut Vec<&'static str>) -> Result<(), Comp
         return Ok(());
     }
     let Some((path, text)) = FILES.iter().find(|(path, _)| *path == file) else {
-        return Err(ComposeError::UnknownFile { file: file.to_owned(), by: by.to_owned() });
+        return Err(ComposeError::UnknownFile {
+            file: file.to_owned(),
+            by: by.to_owned(),
+        });
     };
     for next in required(text) {
         visit(next, path, order)?;
@@ -97,7 +102,10 @@ mod tests {
     #[test]
     fn an_unknown_file_is_named_with_who_asks() {
         let error = compose(&["passes/nothing.wgsl"]).unwrap_err();
-        assert_eq!(error.to_string(), "no shader file \"passes/nothing.wgsl\" (asked for by the caller)");
+        assert_eq!(
+            error.to_string(),
+            "no shader file \"passes/nothing.wgsl\" (asked for by the caller)"
+        );
     }
 
     #[test]

@@ -10,18 +10,51 @@ pub const FILES: &[(&str, &str)] = &[
     ("draw/position.wgsl", include_str!("../draw/position.wgsl")),
     ("draw/sky.wgsl", include_str!("../draw/sky.wgsl")),
     ("draw/varying.wgsl", include_str!("../draw/varying.wgsl")),
-    ("draw/varying_attributes.wgsl", include_str!("../draw/varying_attributes.wgsl")),
+    (
+        "draw/varying_attributes.wgsl",
+        include_str!("../draw/varying_attributes.wgsl"),
+    ),
     ("draw/vertex.wgsl", include_str!("../draw/vertex.wgsl")),
-    ("effects/atmosphere_haze.wgsl", include_str!("../effects/atmosphere_haze.wgsl")),
-    ("effects/atmosphere_none.wgsl", include_str!("../effects/atmosphere_none.wgsl")),
-    ("effects/material_attributes.wgsl", include_str!("../effects/material_attributes.wgsl")),
-    ("effects/material_plain.wgsl", include_str!("../effects/material_plain.wgsl")),
-    ("effects/material_terrain.wgsl", include_str!("../effects/material_terrain.wgsl")),
-    ("effects/material_texture.wgsl", include_str!("../effects/material_texture.wgsl")),
-    ("effects/overlay_level.wgsl", include_str!("../effects/overlay_level.wgsl")),
-    ("effects/overlay_level_wireframe.wgsl", include_str!("../effects/overlay_level_wireframe.wgsl")),
-    ("effects/overlay_none.wgsl", include_str!("../effects/overlay_none.wgsl")),
-    ("effects/overlay_wireframe.wgsl", include_str!("../effects/overlay_wireframe.wgsl")),
+    (
+        "effects/atmosphere_haze.wgsl",
+        include_str!("../effects/atmosphere_haze.wgsl"),
+    ),
+    (
+        "effects/atmosphere_none.wgsl",
+        include_str!("../effects/atmosphere_none.wgsl"),
+    ),
+    (
+        "effects/material_attributes.wgsl",
+        include_str!("../effects/material_attributes.wgsl"),
+    ),
+    (
+        "effects/material_plain.wgsl",
+        include_str!("../effects/material_plain.wgsl"),
+    ),
+    (
+        "effects/material_terrain.wgsl",
+        include_str!("../effects/material_terrain.wgsl"),
+    ),
+    (
+        "effects/material_texture.wgsl",
+        include_str!("../effects/material_texture.wgsl"),
+    ),
+    (
+        "effects/overlay_level.wgsl",
+        include_str!("../effects/overlay_level.wgsl"),
+    ),
+    (
+        "effects/overlay_level_wireframe.wgsl",
+        include_str!("../effects/overlay_level_wireframe.wgsl"),
+    ),
+    (
+        "effects/overlay_none.wgsl",
+        include_str!("../effects/overlay_none.wgsl"),
+    ),
+    (
+        "effects/overlay_wireframe.wgsl",
+        include_str!("../effects/overlay_wireframe.wgsl"),
+    ),
     ("metrics/distance.wgsl", include_str!("../metrics/distance.wgsl")),
     ("metrics/edge.wgsl", include_str!("../metrics/edge.wgsl")),
     ("passes/apply.wgsl", include_str!("../passes/apply.wgsl")),
@@ -44,10 +77,19 @@ pub const FILES: &[(&str, &str)] = &[
     ("shared/frame.wgsl", include_str!("../shared/frame.wgsl")),
     ("shared/grid.wgsl", include_str!("../shared/grid.wgsl")),
     ("shared/hash.wgsl", include_str!("../shared/hash.wgsl")),
-    ("shared/height_bounds.wgsl", include_str!("../shared/height_bounds.wgsl")),
+    (
+        "shared/height_bounds.wgsl",
+        include_str!("../shared/height_bounds.wgsl"),
+    ),
     ("shared/height_field.wgsl", include_str!("../shared/height_field.wgsl")),
-    ("shared/heights_bicubic.wgsl", include_str!("../shared/heights_bicubic.wgsl")),
-    ("shared/heights_bilinear.wgsl", include_str!("../shared/heights_bilinear.wgsl")),
+    (
+        "shared/heights_bicubic.wgsl",
+        include_str!("../shared/heights_bicubic.wgsl"),
+    ),
+    (
+        "shared/heights_bilinear.wgsl",
+        include_str!("../shared/heights_bilinear.wgsl"),
+    ),
     ("shared/leaf.wgsl", include_str!("../shared/leaf.wgsl")),
     ("shared/level_colour.wgsl", include_str!("../shared/level_colour.wgsl")),
     ("shared/map_position.wgsl", include_str!("../shared/map_position.wgsl")),
@@ -66,10 +108,22 @@ pub const FILES: &[(&str, &str)] = &[
     ("shared/tone.wgsl", include_str!("../shared/tone.wgsl")),
     ("shared/topology.wgsl", include_str!("../shared/topology.wgsl")),
     ("shared/wire.wgsl", include_str!("../shared/wire.wgsl")),
-    ("surfaces/displaced_noise.wgsl", include_str!("../surfaces/displaced_noise.wgsl")),
-    ("surfaces/displaced_texture.wgsl", include_str!("../surfaces/displaced_texture.wgsl")),
-    ("surfaces/height_field.wgsl", include_str!("../surfaces/height_field.wgsl")),
-    ("surfaces/height_field_bilinear.wgsl", include_str!("../surfaces/height_field_bilinear.wgsl")),
+    (
+        "surfaces/displaced_noise.wgsl",
+        include_str!("../surfaces/displaced_noise.wgsl"),
+    ),
+    (
+        "surfaces/displaced_texture.wgsl",
+        include_str!("../surfaces/displaced_texture.wgsl"),
+    ),
+    (
+        "surfaces/height_field.wgsl",
+        include_str!("../surfaces/height_field.wgsl"),
+    ),
+    (
+        "surfaces/height_field_bilinear.wgsl",
+        include_str!("../surfaces/height_field_bilinear.wgsl"),
+    ),
     ("surfaces/mesh.wgsl", include_str!("../surfaces/mesh.wgsl")),
     ("surfaces/terrain.wgsl", include_str!("../surfaces/terrain.wgsl")),
 ];

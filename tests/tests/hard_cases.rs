@@ -121,10 +121,11 @@ fn an_orthographic_camera_refines_everything_alike() {
             "{}",
             metric.name()
         );
-        let again = {
-            view.eye *= 2.0;
-            run(&mut World::new(&surface, settings(metric)), &view, 20, metric.name())
+        let farther = View {
+            eye: view.eye * 2.0,
+            ..view
         };
+        let again = run(&mut World::new(&surface, settings(metric)), &farther, 20, metric.name());
         assert!(
             places(&again) == places(&snapshot),
             "{}: the distance does not count",

@@ -124,7 +124,7 @@ fn any_start_settles_in_the_same_leaves_with_the_distance_metric_and_a_base_grid
         capacity: 60_000,
         base_grid: 2,
         max_level: 29,
-        ..settings(Metric::Distance { factor: 0.02 })
+        ..settings(Metric::Distance { factor: 0.3 })
     };
     check("house", &surface, settings);
 }

@@ -21,9 +21,9 @@ fn half_the_edge_length_gives_about_four_times_the_leaves() {
         max_level: 25,
         ..settings(Metric::Edge { pixels })
     };
-    let mut world = World::new(&surface, with(40.0));
+    let mut world = World::new(&surface, with(34.0));
     let mut last: Option<f64> = None;
-    for pixels in [40.0, 20.0, 10.0] {
+    for pixels in [34.0, 17.0, 8.5] {
         world.quadtree.set_settings(with(pixels)).expect("in range");
         let snapshot = world.passes(&view, 40);
         assert_eq!(

@@ -31,7 +31,7 @@ pub struct ReadingArguments {
 #[derive(Args, Clone)]
 pub struct Overrides {
     /// Length of a drawn edge in pixels that leaves are split for; short for --metric edge=P
-    #[arg(long, value_name = "P", conflicts_with = "metric")]
+    #[arg(long, value_name = "P", conflicts_with = "metric", allow_negative_numbers = true)]
     pub pixels: Option<f32>,
     /// When leaves split: edge=PIXELS, or distance=FACTOR (Khoury 2.1)
     #[arg(long, value_name = "METRIC", value_parser = parse_metric)]

@@ -25,7 +25,7 @@ use std::path::{Path, PathBuf};
 #[derive(Args)]
 #[command(after_help = "Examples:
   keyleaf bench scenes/terrain_real.ron --out run.json
-  keyleaf bench scenes/cube.ron --out gate.json --neighbours both --no-draw --step 0.002 --pixels 1")]
+  keyleaf bench scenes/cube.ron --out gate.json --neighbours both --no-draw --from 1.5 --step 0.002 --pixels 1")]
 pub struct Arguments {
     /// Scene files, models or height maps
     #[arg(value_name = "SCENE", required = true)]
@@ -49,6 +49,9 @@ pub struct Arguments {
     /// Time from frame to frame [default: so that the frames cover the path]
     #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
     step: Option<f64>,
+    /// Time on the path at which the frames begin [default: its first key]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true)]
+    from: Option<f64>,
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", value_parser = parse_size, default_value = "1280x720")]
     size: UVec2,
@@ -154,9 +157,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
         "scenes": scenes,
     });
     output::write(&arguments.out, serde_json::to_string_pretty(&report)?.as_bytes())?;
-    if !quiet {
-        output::print(&text(&scenes, &device, &arguments.out))?;
-    }
+    output::print(&text(&scenes, &device, &arguments.out))?;
     Ok(Outcome::Done)
 }
 
@@ -231,20 +232,24 @@ fn fly(
 
 /// The views at a fixed step.
 fn views(path: &CameraPath, arguments: &Arguments) -> anyhow::Result<Vec<View>> {
-    let last = f64::from(arguments.frames.max(2) - 1);
-    let step = arguments.step.unwrap_or(path.duration() / last);
+    let from = arguments.from.unwrap_or(path.start()) - path.start();
+    let duration = path.duration();
+    ensure!(
+        (0.0..=duration).contains(&from),
+        "--from: expected a time on the path, whose keys last {duration} s"
+    );
+    let step = arguments
+        .step
+        .unwrap_or((duration - from) / f64::from(arguments.frames.max(2) - 1));
     // Beyond the end the camera comes back: a slow flight forth and back has no jump.
-    let turn = path.duration().max(f64::MIN_POSITIVE);
+    let turn = duration.max(f64::MIN_POSITIVE);
     let time = |frame: u32| {
-        let time = (f64::from(frame) * step).rem_euclid(2.0 * turn);
+        let time = (from + f64::from(frame) * step).rem_euclid(2.0 * turn);
         path.start() + if time > turn { 2.0 * turn - time } else { time }
     };
-    let views: Option<Vec<View>> = (0..arguments.frames)
-        .map(|frame| Some(view_of(&path.view_at(time(frame))?, arguments.size)))
-        .collect();
-    let views = views.with_context(|| format!("the camera path '{}' has no keys", path.name))?;
-    ensure!(!views.is_empty(), "no frames to measure");
-    Ok(views)
+    let view = |frame| Some(view_of(&path.view_at(time(frame))?, arguments.size));
+    let views: Option<Vec<View>> = (0..arguments.frames).map(view).collect();
+    views.with_context(|| format!("the camera path '{}' has no keys", path.name))
 }
 
 fn start(gpu: &Headless, loaded: &mut Loaded, balance: Balance) -> anyhow::Result<Run> {

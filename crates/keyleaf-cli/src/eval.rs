@@ -136,13 +136,11 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
         writeln!(text, "{},{numbers}", row.text)?;
     }
     output::write(&arguments.output, text.as_bytes())?;
-    if !quiet {
-        output::print(&format!(
-            "{}: {} points",
-            arguments.output.display(),
-            thousands(points.len() as u64)
-        ))?;
-    }
+    output::print(&format!(
+        "{}: {} points",
+        arguments.output.display(),
+        thousands(points.len() as u64)
+    ))?;
     Ok(Outcome::Done)
 }
 

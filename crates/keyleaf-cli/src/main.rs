@@ -35,7 +35,7 @@ struct Program {
     #[command(subcommand)]
     command: Command,
     /// Print no notes and no progress, only results and errors
-    #[arg(long, short, global = true)]
+    #[arg(long, short, global = true, display_order = 900)]
     quiet: bool,
 }
 

@@ -32,11 +32,19 @@ impl Census {
     pub fn of(wishes: impl IntoIterator<Item = f32>, changed: usize, capacity: usize) -> Self {
         let a_step_lower = (-1.0 / STEPS_PER_OCTAVE).exp2();
         let wishes: Vec<f32> = wishes.into_iter().collect();
-        let nearly = wishes.iter().filter(|w| **w <= 1.0 && f64::from(**w) > a_step_lower).count();
+        let nearly = wishes
+            .iter()
+            .filter(|w| **w <= 1.0 && f64::from(**w) > a_step_lower)
+            .count();
         let leaves = wishes.len();
         let lowest = Buckets::of(wishes.iter().copied()).lowest_admitted(capacity.saturating_sub(leaves));
         let starved = wishes.iter().filter(|w| **w > 1.0 && bucket(**w) < lowest).count();
-        Self { changed, leaves, starved, nearly }
+        Self {
+            changed,
+            leaves,
+            starved,
+            nearly,
+        }
     }
 }
 
@@ -84,7 +92,11 @@ impl Pressure {
 
     /// Takes in what a pass left, when there is room for `capacity` leaves.
     pub fn observe(&mut self, census: Census, capacity: usize) {
-        self.unchanged_passes = if census.changed > 0 { 0 } else { self.unchanged_passes.saturating_add(1) };
+        self.unchanged_passes = if census.changed > 0 {
+            0
+        } else {
+            self.unchanged_passes.saturating_add(1)
+        };
         self.passes_since_step = self.passes_since_step.saturating_add(1);
         let is_calm = self.unchanged_passes >= PATIENCE;
         if !is_calm && self.passes_since_step < PATIENCE_IN_MOTION {
@@ -97,7 +109,11 @@ impl Pressure {
             let free = capacity.saturating_sub(census.leaves);
             let needed = ADDED_BY_SPLIT.saturating_mul(census.nearly);
             // In motion there is no time to try: only what fits twice over.
-            let fits = if is_calm { self.failed != Some(lower) && needed <= free } else { 2 * needed <= free };
+            let fits = if is_calm {
+                self.failed != Some(lower) && needed <= free
+            } else {
+                2 * needed <= free
+            };
             if fits {
                 self.step_to(lower);
             }
@@ -115,8 +131,18 @@ impl Pressure {
 mod tests {
     use super::*;
 
-    const FREE: Census = Census { changed: 0, leaves: 880, starved: 0, nearly: 0 };
-    const STARVED: Census = Census { changed: 0, leaves: 990, starved: 20, nearly: 0 };
+    const FREE: Census = Census {
+        changed: 0,
+        leaves: 880,
+        starved: 0,
+        nearly: 0,
+    };
+    const STARVED: Census = Census {
+        changed: 0,
+        leaves: 990,
+        starved: 20,
+        nearly: 0,
+    };
 
     fn observe(pressure: &mut Pressure, census: Census, passes: usize) {
         for _ in 0..passes {
@@ -125,7 +151,10 @@ mod tests {
     }
 
     fn after_steps(steps: u32) -> Pressure {
-        Pressure { steps, ..Pressure::default() }
+        Pressure {
+            steps,
+            ..Pressure::default()
+        }
     }
 
     #[test]
@@ -170,16 +199,40 @@ mod tests {
         assert_eq!(pressure.steps(), 0);
         observe(&mut pressure, Census { changed: 9, ..STARVED }, 1);
         assert_eq!(pressure.steps(), 1);
-        observe(&mut pressure, Census { changed: 9, nearly: 21, ..FREE }, 40);
+        observe(
+            &mut pressure,
+            Census {
+                changed: 9,
+                nearly: 21,
+                ..FREE
+            },
+            40,
+        );
         assert_eq!(pressure.steps(), 1);
-        observe(&mut pressure, Census { changed: 9, nearly: 20, ..FREE }, 1);
+        observe(
+            &mut pressure,
+            Census {
+                changed: 9,
+                nearly: 20,
+                ..FREE
+            },
+            1,
+        );
         assert_eq!(pressure.steps(), 0);
     }
 
     #[test]
     fn the_census_counts_what_is_not_admitted_and_what_nearly_wishes() {
         let wishes = [0.0, 0.84, 0.841, 1.0, 1.000_01, 1.5, 7.0];
-        assert_eq!(Census::of(wishes, 3, 16), Census { changed: 3, leaves: 7, starved: 0, nearly: 2 });
+        assert_eq!(
+            Census::of(wishes, 3, 16),
+            Census {
+                changed: 3,
+                leaves: 7,
+                starved: 0,
+                nearly: 2
+            }
+        );
         assert_eq!(Census::of(wishes, 3, 15).starved, 2);
         assert_eq!(Census::of(wishes, 3, 9).starved, 3);
     }

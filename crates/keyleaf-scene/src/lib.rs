@@ -1,5 +1,21 @@
 //! Scene and camera-path files, importers and exporters of keyleaf.
-#![warn(missing_docs)]
+//!
+//! [`open()`] takes what a user points at – a scene (`.ron`), a model or a height map – and gives an [`OpenedScene`]: surfaces
+//! of `keyleaf-surface` with their materials and settings, at least one camera, and at least one camera path.
+//!
+//! | module | gives |
+//! |---|---|
+//! | [`scene`] | the scene file, documented field by field; errors with file, line, column and field |
+//! | [`open`](mod@open) | opening scenes, models and height maps |
+//! | [`model`] | OBJ, glTF, PLY, STL: one welded [`PolygonMesh`](keyleaf_surface::PolygonMesh), one material |
+//! | [`heightmap`] | PNG, TIFF, EXR, raw: exact samples, voids filled |
+//! | [`path`], [`view`] | the camera at any time of a path; default views |
+//! | [`export`] | triangles to OBJ, PLY, STL, bit by bit, whole files or none |
+//! | [`triangulate`] | convexity and ear clipping of polygons |
+//! | [`error`], [`note`] | what was refused and where; what was done and may surprise |
+//!
+//! World space is right-handed, Y up, north is -Z, in metres. Colours are linear, pictures are sRGB, v = 0 is the bottom of a
+//! picture. Nothing is printed, and nothing panics, whatever the files hold.
 
 pub mod error;
 pub mod export;

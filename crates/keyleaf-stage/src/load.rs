@@ -80,10 +80,20 @@ pub struct LoadedObject {
 pub fn load(file: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
     let opened = keyleaf_scene::open(file, options)?;
     let objects: Vec<LoadedObject> = opened.surfaces.into_iter().map(object).collect();
-    let boxes = objects.iter().map(|o| world_box(o.surface.bounding_box(), &o.world_from_object));
-    let bounds = boxes.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |all, one| (all.0.min(one.0), all.1.max(one.1)));
+    let boxes = objects
+        .iter()
+        .map(|o| world_box(o.surface.bounding_box(), &o.world_from_object));
+    let bounds = boxes.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |all, one| {
+        (all.0.min(one.0), all.1.max(one.1))
+    });
     let notes = opened.notes.iter().map(ToString::to_string).collect();
-    Ok(Loaded { file: opened.file, scene: opened.scene, objects, notes, bounds })
+    Ok(Loaded {
+        file: opened.file,
+        scene: opened.scene,
+        objects,
+        notes,
+        bounds,
+    })
 }
 
 fn object(opened: OpenedSurface) -> LoadedObject {
@@ -102,7 +112,11 @@ fn object(opened: OpenedSurface) -> LoadedObject {
     let uses_corners = matches!(material, Material::Texture | Material::Attributes);
     let [red, green, blue, _] = opened.material.base_colour;
     LoadedObject {
-        look: look_of(opened.surface.topology(), uses_corners.then_some(&opened.corners), texture),
+        look: look_of(
+            opened.surface.topology(),
+            uses_corners.then_some(&opened.corners),
+            texture,
+        ),
         settings: settings(&opened.settings),
         name: opened.name,
         surface: opened.surface,
@@ -138,7 +152,10 @@ pub fn view_of(camera: &keyleaf_scene::View, size: UVec2) -> View {
     View {
         eye: camera.eye,
         orientation: camera.orientation(),
-        projection: Projection::Perspective { fov_y: camera.fov.to_radians(), near: camera.near },
+        projection: Projection::Perspective {
+            fov_y: camera.fov.to_radians(),
+            near: camera.near,
+        },
         viewport: size,
     }
 }
@@ -150,10 +167,12 @@ impl Loaded {
     /// [`LoadError::NoCamera`] lists the names there are.
     pub fn camera(&self, name: Option<&str>) -> Result<&NamedCamera, LoadError> {
         let all = &self.scene.cameras;
-        all.iter().find(|c| name.is_none_or(|name| c.name == name)).ok_or_else(|| LoadError::NoCamera {
-            name: name.unwrap_or_default().to_owned(),
-            known: names(all.iter().map(|c| c.name.as_str())),
-        })
+        all.iter()
+            .find(|c| name.is_none_or(|name| c.name == name))
+            .ok_or_else(|| LoadError::NoCamera {
+                name: name.unwrap_or_default().to_owned(),
+                known: names(all.iter().map(|c| c.name.as_str())),
+            })
     }
 
     /// A camera path by its name, or the first one.
@@ -162,10 +181,12 @@ impl Loaded {
     /// [`LoadError::NoPath`] lists the names there are.
     pub fn path(&self, name: Option<&str>) -> Result<&CameraPath, LoadError> {
         let all = &self.scene.paths;
-        all.iter().find(|p| name.is_none_or(|name| p.name == name)).ok_or_else(|| LoadError::NoPath {
-            name: name.unwrap_or_default().to_owned(),
-            known: names(all.iter().map(|p| p.name.as_str())),
-        })
+        all.iter()
+            .find(|p| name.is_none_or(|name| p.name == name))
+            .ok_or_else(|| LoadError::NoPath {
+                name: name.unwrap_or_default().to_owned(),
+                known: names(all.iter().map(|p| p.name.as_str())),
+            })
     }
 
     /// The view of a camera by its name, or of the first one.
@@ -181,13 +202,23 @@ impl Loaded {
     /// # Errors
     /// [`LoadError::NoPath`].
     pub fn path_views(&self, path: Option<&str>, step: f64, size: UVec2) -> Result<Vec<View>, LoadError> {
-        Ok(self.path(path)?.frames(step).map(|frame| view_of(&frame.view, size)).collect())
+        Ok(self
+            .path(path)?
+            .frames(step)
+            .map(|frame| view_of(&frame.view, size))
+            .collect())
     }
 
     /// The light of the scene, without what a surface adds.
     pub(crate) fn shading(&self) -> Shading {
         let light = &self.scene.light;
-        let fog = self.scene.effects.iter().find_map(|effect| if let Effect::Fog(fog) = effect { Some(*fog) } else { None });
+        let fog = self.scene.effects.iter().find_map(|effect| {
+            if let Effect::Fog(fog) = effect {
+                Some(*fog)
+            } else {
+                None
+            }
+        });
         let mut shading = Shading {
             sun_direction: light.direction().as_vec3(),
             sun_colour: colour(light.colour),
@@ -207,7 +238,10 @@ impl Loaded {
 impl LoadedObject {
     /// The light of the scene on this surface.
     pub(crate) fn shading(&self, light: Shading) -> Shading {
-        let mut shading = Shading { base_colour: Vec3::from_array(self.base_colour), ..light };
+        let mut shading = Shading {
+            base_colour: Vec3::from_array(self.base_colour),
+            ..light
+        };
         if let Colouring::Terrain(colours) = &self.colouring {
             let scale = self.world_from_object.matrix3.y_axis.y;
             let world = |height: f64| (height * scale + self.world_from_object.translation.y) as f32;
@@ -228,5 +262,9 @@ impl LoadedObject {
 
 fn names<'a>(all: impl Iterator<Item = &'a str>) -> String {
     let list: Vec<&str> = all.collect();
-    if list.is_empty() { "none".to_owned() } else { list.join(", ") }
+    if list.is_empty() {
+        "none".to_owned()
+    } else {
+        list.join(", ")
+    }
 }

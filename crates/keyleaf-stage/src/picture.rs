@@ -19,7 +19,11 @@ pub fn target(show: Show) -> Target {
         Show::Normal | Show::Level => (wgpu::TextureFormat::Rgba8Unorm, 1),
         Show::Position => (wgpu::TextureFormat::Rgba32Float, 1),
     };
-    Target { colour, depth: DEPTH, samples }
+    Target {
+        colour,
+        depth: DEPTH,
+        samples,
+    }
 }
 
 /// Offscreen textures of one size.
@@ -41,15 +45,27 @@ impl Canvas {
         let limit = device.limits().max_texture_dimension_2d;
         if size.x == 0 || size.y == 0 {
             let value = format!("{}x{}", size.x, size.y);
-            return Err(KeyleafError::Setting { setting: "size", value, expected: "expected at least 1x1 pixels" });
+            return Err(KeyleafError::Setting {
+                setting: "size",
+                value,
+                expected: "expected at least 1x1 pixels",
+            });
         }
         if size.max_element() > limit {
-            return Err(KeyleafError::TextureTooLarge { width: size.x, height: size.y, limit });
+            return Err(KeyleafError::TextureTooLarge {
+                width: size.x,
+                height: size.y,
+                limit,
+            });
         }
         let make = |label, format, sample_count, usage| {
             device.create_texture(&wgpu::TextureDescriptor {
                 label: Some(label),
-                size: wgpu::Extent3d { width: size.x, height: size.y, depth_or_array_layers: 1 },
+                size: wgpu::Extent3d {
+                    width: size.x,
+                    height: size.y,
+                    depth_or_array_layers: 1,
+                },
                 mip_level_count: 1,
                 sample_count,
                 dimension: wgpu::TextureDimension::D2,
@@ -62,14 +78,31 @@ impl Canvas {
         let resolved = make("keyleaf.picture", target.colour, 1, U::RENDER_ATTACHMENT | U::COPY_SRC);
         let resolved_view = resolved.create_view(&Default::default());
         let samples = if target.samples > 1 {
-            make("keyleaf.picture.samples", target.colour, target.samples, U::RENDER_ATTACHMENT)
-                .create_view(&Default::default())
+            make(
+                "keyleaf.picture.samples",
+                target.colour,
+                target.samples,
+                U::RENDER_ATTACHMENT,
+            )
+            .create_view(&Default::default())
         } else {
             resolved_view.clone()
         };
-        let depth = make("keyleaf.picture.depth", target.depth, target.samples, U::RENDER_ATTACHMENT);
+        let depth = make(
+            "keyleaf.picture.depth",
+            target.depth,
+            target.samples,
+            U::RENDER_ATTACHMENT,
+        );
         let depth = depth.create_view(&Default::default());
-        Ok(Self { size, target, samples, resolved, resolved_view, depth })
+        Ok(Self {
+            size,
+            target,
+            samples,
+            resolved,
+            resolved_view,
+            depth,
+        })
     }
 
     /// Pixels.
@@ -87,7 +120,12 @@ impl Canvas {
     ) {
         let multisampled = self.target.samples > 1;
         let clear = match stage.show() {
-            Show::Colour => wgpu::Color { r: 0.045, g: 0.05, b: 0.06, a: 1.0 },
+            Show::Colour => wgpu::Color {
+                r: 0.045,
+                g: 0.05,
+                b: 0.06,
+                a: 1.0,
+            },
             _ => wgpu::Color::TRANSPARENT,
         };
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -98,12 +136,19 @@ impl Canvas {
                 resolve_target: multisampled.then_some(&self.resolved_view),
                 ops: wgpu::Operations {
                     load: wgpu::LoadOp::Clear(clear),
-                    store: if multisampled { wgpu::StoreOp::Discard } else { wgpu::StoreOp::Store },
+                    store: if multisampled {
+                        wgpu::StoreOp::Discard
+                    } else {
+                        wgpu::StoreOp::Store
+                    },
                 },
             })],
             depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
                 view: &self.depth,
-                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+                depth_ops: Some(wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(0.0),
+                    store: wgpu::StoreOp::Discard,
+                }),
                 stencil_ops: None,
             }),
             timestamp_writes: timestamps,
@@ -133,12 +178,24 @@ impl Canvas {
             self.resolved.as_image_copy(),
             wgpu::TexelCopyBufferInfo {
                 buffer: &buffer,
-                layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(padded), rows_per_image: None },
+                layout: wgpu::TexelCopyBufferLayout {
+                    offset: 0,
+                    bytes_per_row: Some(padded),
+                    rows_per_image: None,
+                },
             },
-            wgpu::Extent3d { width: self.size.x, height: self.size.y, depth_or_array_layers: 1 },
+            wgpu::Extent3d {
+                width: self.size.x,
+                height: self.size.y,
+                depth_or_array_layers: 1,
+            },
         );
         gpu.queue.submit([encoder.finish()]);
         let bytes = read_back::read(&gpu.device, &gpu.queue, "the picture", &buffer, 0, buffer.size())?;
-        Ok(bytes.chunks(padded as usize).flat_map(|line| &line[..row as usize]).copied().collect())
+        Ok(bytes
+            .chunks(padded as usize)
+            .flat_map(|line| &line[..row as usize])
+            .copied()
+            .collect())
     }
 }

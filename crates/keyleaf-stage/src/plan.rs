@@ -77,8 +77,11 @@ pub struct Plan {
 /// [`keyleaf_shaders::ComposeError`] if a WGSL file is missing.
 pub fn plan(loaded: &Loaded, look: StageLook) -> Result<Plan, keyleaf_shaders::ComposeError> {
     let effects = Effects::of(&loaded.scene, look);
-    let surfaces =
-        loaded.objects.iter().map(|object| surface(object, effects, look.show)).collect::<Result<Vec<_>, _>>()?;
+    let surfaces = loaded
+        .objects
+        .iter()
+        .map(|object| surface(object, effects, look.show))
+        .collect::<Result<Vec<_>, _>>()?;
     let mut names = Vec::new();
     let mut others = Vec::new();
     if effects.sky {
@@ -91,10 +94,20 @@ pub fn plan(loaded: &Loaded, look: StageLook) -> Result<Plan, keyleaf_shaders::C
         names.extend((atmosphere != Default::default()).then(|| format!("{atmosphere:?}").to_lowercase()));
     }
     let bytes = surfaces.iter().flat_map(|s| &s.buffers).map(|b| b.bytes).sum();
-    Ok(Plan { effects: names, surfaces, modules: others, bytes, notes: loaded.notes.clone() })
+    Ok(Plan {
+        effects: names,
+        surfaces,
+        modules: others,
+        bytes,
+        notes: loaded.notes.clone(),
+    })
 }
 
-fn surface(object: &LoadedObject, effects: Effects, show: Show) -> Result<PlannedSurface, keyleaf_shaders::ComposeError> {
+fn surface(
+    object: &LoadedObject,
+    effects: Effects,
+    show: Show,
+) -> Result<PlannedSurface, keyleaf_shaders::ComposeError> {
     let kind = Quadtree::kind(object.surface.as_ref(), &object.settings);
     let mut planned = Vec::new();
     for pass in modules(&kind) {
@@ -108,12 +121,18 @@ fn surface(object: &LoadedObject, effects: Effects, show: Show) -> Result<Planne
     let capacity = object.settings.capacity;
     let mut buffers: Vec<PlannedBuffer> = layout::buffer_bytes(capacity)
         .into_iter()
-        .map(|(name, bytes)| PlannedBuffer { name: name.to_owned(), bytes })
+        .map(|(name, bytes)| PlannedBuffer {
+            name: name.to_owned(),
+            bytes,
+        })
         .collect();
     let by_leaf: u64 = buffers.iter().map(|b| b.bytes).sum();
     let mut add = |name: &str, bytes: usize| {
         if bytes > 0 {
-            buffers.push(PlannedBuffer { name: name.to_owned(), bytes: bytes as u64 });
+            buffers.push(PlannedBuffer {
+                name: name.to_owned(),
+                bytes: bytes as u64,
+            });
         }
     };
     let topology = object.surface.topology();
@@ -123,16 +142,29 @@ fn surface(object: &LoadedObject, effects: Effects, show: Show) -> Result<Planne
     add("surface A", 4 * tables.a.len());
     add("surface B", 4 * tables.b.len());
     for (name, data) in [("heights", &tables.heights), ("height bounds", &tables.height_bounds)] {
-        add(name, data.as_ref().map_or(0, |data| data.mips.iter().map(|mip| 4 * mip.len()).sum()));
+        add(
+            name,
+            data.as_ref()
+                .map_or(0, |data| data.mips.iter().map(|mip| 4 * mip.len()).sum()),
+        );
     }
     if channel.has_attributes() {
-        add("attributes", size_of::<keyleaf::draw::Attribute>() * object.look.attributes.len().max(1));
+        add(
+            "attributes",
+            size_of::<keyleaf::draw::Attribute>() * object.look.attributes.len().max(1),
+        );
     }
     if channel.has_texture() {
-        add("base-colour texture", object.look.texture.as_ref().map_or(4, |t| t.rgba.len()));
+        add(
+            "base-colour texture",
+            object.look.texture.as_ref().map_or(4, |t| t.rgba.len()),
+        );
     }
     let frame = <keyleaf::Frame as encase::ShaderType>::min_size().get() as usize;
-    add("control, arguments, frame", size_of::<layout::Control>() + layout::arguments::SIZE as usize + frame);
+    add(
+        "control, arguments, frame",
+        size_of::<layout::Control>() + layout::arguments::SIZE as usize + frame,
+    );
 
     Ok(PlannedSurface {
         name: object.name.clone(),
@@ -154,6 +186,9 @@ fn module(name: &str, pipelines: &[&str], files: &[&str]) -> Result<PlannedModul
     Ok(PlannedModule {
         name: name.to_owned(),
         pipelines: pipelines.iter().map(|p| (*p).to_owned()).collect(),
-        files: keyleaf_shaders::dependencies(files)?.into_iter().map(str::to_owned).collect(),
+        files: keyleaf_shaders::dependencies(files)?
+            .into_iter()
+            .map(str::to_owned)
+            .collect(),
     })
 }

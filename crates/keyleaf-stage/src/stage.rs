@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3};
 use keyleaf::draw::{ColourTexture, LeafDraw, LeafPipeline, Look, Sky, Target};
 use keyleaf::headless::Headless;
 use keyleaf::shading::{Atmosphere, Channel, Material, Overlay, Shading};
-use keyleaf::{Kind, KeyleafError, Passes, Quadtree, Statistics, View};
+use keyleaf::{KeyleafError, Kind, Passes, Quadtree, Statistics, View};
 use keyleaf_key::Topology;
 use keyleaf_scene::scene::Effect;
 use keyleaf_surface::CornerAttributes;
@@ -56,7 +56,11 @@ impl Effects {
         let colour = look.show == Show::Colour;
         Self {
             sky: colour && has(|e| matches!(e, Effect::Sky)),
-            atmosphere: if has(|e| matches!(e, Effect::Fog(_))) { Atmosphere::Haze } else { Atmosphere::None },
+            atmosphere: if has(|e| matches!(e, Effect::Fog(_))) {
+                Atmosphere::Haze
+            } else {
+                Atmosphere::None
+            },
             overlay: Overlay::of(
                 look.level_tint || has(|e| matches!(e, Effect::LevelTint)),
                 look.wireframe || has(|e| matches!(e, Effect::Wireframe)),
@@ -125,8 +129,14 @@ impl Stage {
                     Arc::clone(pipelines.entry((kind, channel)).or_insert(made))
                 }
             };
-            let quadtree =
-                Quadtree::new(device, queue, passes, Arc::clone(&object.surface), object.world_from_object, object.settings)?;
+            let quadtree = Quadtree::new(
+                device,
+                queue,
+                passes,
+                Arc::clone(&object.surface),
+                object.world_from_object,
+                object.settings,
+            )?;
             let draw = LeafDraw::new(device, queue, &pipeline, &quadtree, &object.look);
             objects.push(StageObject {
                 name: object.name.clone(),
@@ -136,8 +146,21 @@ impl Stage {
                 shading: object.shading(light),
             });
         }
-        let sky = if effects.sky { Some(Sky::new(device, target)?) } else { None };
-        Ok(Self { objects, device: device.clone(), queue: queue.clone(), sky, light, effects, show: look.show, target })
+        let sky = if effects.sky {
+            Some(Sky::new(device, target)?)
+        } else {
+            None
+        };
+        Ok(Self {
+            objects,
+            device: device.clone(),
+            queue: queue.clone(),
+            sky,
+            light,
+            effects,
+            show: look.show,
+            target,
+        })
     }
 
     /// What the pipelines render to.
@@ -172,7 +195,9 @@ impl Stage {
         let eye = view.eye.as_vec3();
         for object in &mut self.objects {
             let shading = Shading { eye, ..object.shading };
-            object.draw.prepare(&self.device, &self.queue, &object.quadtree, &shading);
+            object
+                .draw
+                .prepare(&self.device, &self.queue, &object.quadtree, &shading);
             object.draw.draw(pass, &object.pipeline, &object.quadtree);
         }
         if let Some(sky) = &self.sky {
@@ -205,7 +230,13 @@ impl Stage {
     pub fn memory(&self) -> Vec<(String, &'static str, u64)> {
         let mut all = Vec::new();
         for object in &self.objects {
-            all.extend(object.quadtree.memory().into_iter().map(|(name, bytes)| (object.name.clone(), name, bytes)));
+            all.extend(
+                object
+                    .quadtree
+                    .memory()
+                    .into_iter()
+                    .map(|(name, bytes)| (object.name.clone(), name, bytes)),
+            );
             all.push((object.name.clone(), "look", object.draw.bytes()));
         }
         all
@@ -215,11 +246,20 @@ impl Stage {
 /// What the corners of a mesh and its picture add to a surface. Corners go with the half-edges of the topology.
 pub(crate) fn look_of(topology: &Topology, corners: Option<&CornerAttributes>, texture: Option<ColourTexture>) -> Look {
     let Some(corners) = corners else { return Look::default() };
-    let counts: Vec<u32> = (0..topology.face_count()).map(|face| topology.corner_count(face)).collect();
+    let counts: Vec<u32> = (0..topology.face_count())
+        .map(|face| topology.corner_count(face))
+        .collect();
     // Files have v = 0 at the bottom of the picture, the GPU at the top.
-    let uvs: Option<Vec<[f32; 2]>> = corners.uvs.as_ref().map(|all| all.iter().map(|[u, v]| [*u, 1.0 - v]).collect());
-    let attributes =
-        keyleaf::draw::attributes(&counts, uvs.as_deref(), corners.normals.as_deref(), corners.colours.as_deref());
+    let uvs: Option<Vec<[f32; 2]>> = corners
+        .uvs
+        .as_ref()
+        .map(|all| all.iter().map(|[u, v]| [*u, 1.0 - v]).collect());
+    let attributes = keyleaf::draw::attributes(
+        &counts,
+        uvs.as_deref(),
+        corners.normals.as_deref(),
+        corners.colours.as_deref(),
+    );
     Look { attributes, texture }
 }
 

@@ -21,7 +21,11 @@ pub enum Binding {
 
 impl Binding {
     fn kind(self) -> Option<wgpu::BindingType> {
-        let buffer = |ty| wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None };
+        let buffer = |ty| wgpu::BindingType::Buffer {
+            ty,
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        };
         let texture = |filterable| wgpu::BindingType::Texture {
             sample_type: wgpu::TextureSampleType::Float { filterable },
             view_dimension: wgpu::TextureViewDimension::D2,
@@ -40,14 +44,27 @@ impl Binding {
 }
 
 /// A layout whose binding i is `bindings[i]`.
-pub(crate) fn layout(device: &wgpu::Device, label: &str, stages: wgpu::ShaderStages, bindings: &[Binding]) -> wgpu::BindGroupLayout {
+pub(crate) fn layout(
+    device: &wgpu::Device,
+    label: &str,
+    stages: wgpu::ShaderStages,
+    bindings: &[Binding],
+) -> wgpu::BindGroupLayout {
     let entries: Vec<_> = (0u32..)
         .zip(bindings)
         .filter_map(|(binding, kind)| {
-            Some(wgpu::BindGroupLayoutEntry { binding, visibility: stages, ty: kind.kind()?, count: None })
+            Some(wgpu::BindGroupLayoutEntry {
+                binding,
+                visibility: stages,
+                ty: kind.kind()?,
+                count: None,
+            })
         })
         .collect();
-    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some(label), entries: &entries })
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some(label),
+        entries: &entries,
+    })
 }
 
 /// A bind group from (number, resource).
@@ -59,7 +76,14 @@ pub(crate) fn group(
 ) -> wgpu::BindGroup {
     let entries: Vec<_> = resources
         .iter()
-        .map(|(binding, resource)| wgpu::BindGroupEntry { binding: *binding, resource: resource.clone() })
+        .map(|(binding, resource)| wgpu::BindGroupEntry {
+            binding: *binding,
+            resource: resource.clone(),
+        })
         .collect();
-    device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(label), layout, entries: &entries })
+    device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some(label),
+        layout,
+        entries: &entries,
+    })
 }

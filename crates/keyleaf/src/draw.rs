@@ -110,12 +110,19 @@ impl LeafPipeline {
                 buffers: &[Some(wgpu::VertexBufferLayout {
                     array_stride: 4,
                     step_mode: wgpu::VertexStepMode::Vertex,
-                    attributes: &[wgpu::VertexAttribute { format: wgpu::VertexFormat::Uint32, offset: 0, shader_location: 0 }],
+                    attributes: &[wgpu::VertexAttribute {
+                        format: wgpu::VertexFormat::Uint32,
+                        offset: 0,
+                        shader_location: 0,
+                    }],
                 })],
             },
             primitive: wgpu::PrimitiveState::default(),
             depth_stencil: Some(depth(target, wgpu::CompareFunction::Greater)),
-            multisample: wgpu::MultisampleState { count: target.samples, ..Default::default() },
+            multisample: wgpu::MultisampleState {
+                count: target.samples,
+                ..Default::default()
+            },
             fragment: Some(wgpu::FragmentState {
                 module: &shader,
                 entry_point: Some("fragment"),
@@ -125,7 +132,12 @@ impl LeafPipeline {
             multiview_mask: None,
             cache: None,
         });
-        Ok(Self { pipeline, leaf_layout, look_layout, channel })
+        Ok(Self {
+            pipeline,
+            leaf_layout,
+            look_layout,
+            channel,
+        })
     }
 }
 
@@ -151,7 +163,13 @@ pub struct LeafDraw {
 
 impl LeafDraw {
     /// Binds a quadtree, with its look, to a pipeline of its kind.
-    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue, pipeline: &LeafPipeline, quadtree: &Quadtree, look: &Look) -> Self {
+    pub fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        pipeline: &LeafPipeline,
+        quadtree: &Quadtree,
+        look: &Look,
+    ) -> Self {
         let buffers = quadtree.buffers();
         let leaves = binding::group(
             device,
@@ -172,8 +190,17 @@ impl LeafDraw {
         });
         let mut bytes = shading.size();
         let attributes = pipeline.channel.has_attributes().then(|| {
-            let nothing = [Attribute { normal: [0.0; 3], colour: u32::MAX, uv: [0.0; 2], unused: [0.0; 2] }];
-            let all = if look.attributes.is_empty() { &nothing[..] } else { &look.attributes };
+            let nothing = [Attribute {
+                normal: [0.0; 3],
+                colour: u32::MAX,
+                uv: [0.0; 2],
+                unused: [0.0; 2],
+            }];
+            let all = if look.attributes.is_empty() {
+                &nothing[..]
+            } else {
+                &look.attributes
+            };
             let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
                 label: Some("keyleaf.draw.attributes"),
                 contents: bytemuck::cast_slice(all),
@@ -183,7 +210,11 @@ impl LeafDraw {
             buffer
         });
         let texture = pipeline.channel.has_texture().then(|| {
-            let white = ColourTexture { width: 1, height: 1, rgba: vec![255; 4] };
+            let white = ColourTexture {
+                width: 1,
+                height: 1,
+                rgba: vec![255; 4],
+            };
             let texture = look.texture.as_ref().unwrap_or(&white);
             bytes += texture.rgba.len() as u64;
             colour_texture(device, queue, texture)
@@ -195,7 +226,13 @@ impl LeafDraw {
             resources.push((3, wgpu::BindingResource::Sampler(sampler)));
         }
         let look = binding::group(device, "keyleaf.draw.look", &pipeline.look_layout, &resources);
-        Self { leaves, look, shading, grid: GridBuffers::new(device, quadtree.settings().base_grid), bytes }
+        Self {
+            leaves,
+            look,
+            shading,
+            grid: GridBuffers::new(device, quadtree.settings().base_grid),
+            bytes,
+        }
     }
 
     /// Writes the light of this frame, and the base grid if its setting has changed.
@@ -247,7 +284,12 @@ impl Sky {
             label: Some("keyleaf.sky"),
             source: wgpu::ShaderSource::Wgsl(compose(&Self::FILES)?.into()),
         });
-        let layout = binding::layout(device, "keyleaf.sky", wgpu::ShaderStages::VERTEX_FRAGMENT, &[Binding::Uniform]);
+        let layout = binding::layout(
+            device,
+            "keyleaf.sky",
+            wgpu::ShaderStages::VERTEX_FRAGMENT,
+            &[Binding::Uniform],
+        );
         let empty = binding::layout(device, "keyleaf.sky.nothing", wgpu::ShaderStages::NONE, &[]);
         let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("keyleaf.sky"),
@@ -265,7 +307,10 @@ impl Sky {
             },
             primitive: wgpu::PrimitiveState::default(),
             depth_stencil: Some(depth(target, wgpu::CompareFunction::GreaterEqual)),
-            multisample: wgpu::MultisampleState { count: target.samples, ..Default::default() },
+            multisample: wgpu::MultisampleState {
+                count: target.samples,
+                ..Default::default()
+            },
             fragment: Some(wgpu::FragmentState {
                 module: &shader,
                 entry_point: Some("sky_fragment"),
@@ -277,14 +322,26 @@ impl Sky {
         });
         let uniform = |label, size| {
             let usage = wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST;
-            device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size,
+                usage,
+                mapped_at_creation: false,
+            })
         };
         let background = uniform("keyleaf.sky.background", Background::min_size().get());
         let shading = uniform("keyleaf.sky.shading", Shading::min_size().get());
-        let group = |buffer: &wgpu::Buffer| binding::group(device, "keyleaf.sky", &layout, &[(0, buffer.as_entire_binding())]);
+        let group =
+            |buffer: &wgpu::Buffer| binding::group(device, "keyleaf.sky", &layout, &[(0, buffer.as_entire_binding())]);
         let groups = [group(&background), group(&shading)];
         let nothing = binding::group(device, "keyleaf.sky.nothing", &empty, &[]);
-        Ok(Self { pipeline, background, shading, groups, nothing })
+        Ok(Self {
+            pipeline,
+            background,
+            shading,
+            groups,
+            nothing,
+        })
     }
 
     /// Writes the view and light of this frame.
@@ -303,7 +360,11 @@ impl Sky {
     }
 }
 
-pub(crate) fn write_uniform<T: ShaderType + encase::internal::WriteInto>(queue: &wgpu::Queue, buffer: &wgpu::Buffer, value: &T) {
+pub(crate) fn write_uniform<T: ShaderType + encase::internal::WriteInto>(
+    queue: &wgpu::Queue,
+    buffer: &wgpu::Buffer,
+    value: &T,
+) {
     let mut bytes = encase::UniformBuffer::new(Vec::new());
     if bytes.write(value).is_ok() {
         queue.write_buffer(buffer, 0, &bytes.into_inner());
@@ -311,11 +372,19 @@ pub(crate) fn write_uniform<T: ShaderType + encase::internal::WriteInto>(queue: 
 }
 
 /// Uploads a texture with a chain of mips, each the mean of four texels in linear light.
-fn colour_texture(device: &wgpu::Device, queue: &wgpu::Queue, source: &ColourTexture) -> (wgpu::TextureView, wgpu::Sampler) {
+fn colour_texture(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    source: &ColourTexture,
+) -> (wgpu::TextureView, wgpu::Sampler) {
     let levels = 32 - source.width.max(source.height).max(1).leading_zeros();
     let texture = device.create_texture(&wgpu::TextureDescriptor {
         label: Some("keyleaf.draw.texture"),
-        size: wgpu::Extent3d { width: source.width.max(1), height: source.height.max(1), depth_or_array_layers: 1 },
+        size: wgpu::Extent3d {
+            width: source.width.max(1),
+            height: source.height.max(1),
+            depth_or_array_layers: 1,
+        },
         mip_level_count: levels,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
@@ -326,10 +395,23 @@ fn colour_texture(device: &wgpu::Device, queue: &wgpu::Queue, source: &ColourTex
     let mut level = source.clone();
     for mip_level in 0..levels {
         queue.write_texture(
-            wgpu::TexelCopyTextureInfo { texture: &texture, mip_level, origin: wgpu::Origin3d::ZERO, aspect: wgpu::TextureAspect::All },
+            wgpu::TexelCopyTextureInfo {
+                texture: &texture,
+                mip_level,
+                origin: wgpu::Origin3d::ZERO,
+                aspect: wgpu::TextureAspect::All,
+            },
             &level.rgba,
-            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * level.width), rows_per_image: Some(level.height) },
-            wgpu::Extent3d { width: level.width, height: level.height, depth_or_array_layers: 1 },
+            wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(4 * level.width),
+                rows_per_image: Some(level.height),
+            },
+            wgpu::Extent3d {
+                width: level.width,
+                height: level.height,
+                depth_or_array_layers: 1,
+            },
         );
         level = half(&level);
     }
@@ -355,7 +437,9 @@ fn half(source: &ColourTexture) -> ColourTexture {
     for y in 0..height {
         for x in 0..width {
             for channel in 0..4 {
-                let sum = linear(2 * x, 2 * y, channel) + linear(2 * x + 1, 2 * y, channel) + linear(2 * x, 2 * y + 1, channel)
+                let sum = linear(2 * x, 2 * y, channel)
+                    + linear(2 * x + 1, 2 * y, channel)
+                    + linear(2 * x, 2 * y + 1, channel)
                     + linear(2 * x + 1, 2 * y + 1, channel);
                 rgba.push(((sum / 4.0).powf(1.0 / 2.2) * 255.0).round() as u8);
             }
@@ -365,9 +449,19 @@ fn half(source: &ColourTexture) -> ColourTexture {
 }
 
 /// Attributes of a mesh's corners and of the centres of its faces, from what the file gave, in the order of the faces.
-pub fn attributes(corner_counts: &[u32], uvs: Option<&[[f32; 2]]>, normals: Option<&[[f32; 3]]>, colours: Option<&[[f32; 4]]>) -> Vec<Attribute> {
+pub fn attributes(
+    corner_counts: &[u32],
+    uvs: Option<&[[f32; 2]]>,
+    normals: Option<&[[f32; 3]]>,
+    colours: Option<&[[f32; 4]]>,
+) -> Vec<Attribute> {
     let pack = |c: [f32; 4]| u32::from_le_bytes(c.map(|x| (x.clamp(0.0, 1.0) * 255.0).round() as u8));
-    let make = |normal: Vec3, colour: [f32; 4], uv: Vec2| Attribute { normal: normal.to_array(), colour: pack(colour), uv: uv.to_array(), unused: [0.0; 2] };
+    let make = |normal: Vec3, colour: [f32; 4], uv: Vec2| Attribute {
+        normal: normal.to_array(),
+        colour: pack(colour),
+        uv: uv.to_array(),
+        unused: [0.0; 2],
+    };
     let corners: usize = corner_counts.iter().map(|n| *n as usize).sum();
     let normal = |i: usize| normals.map_or(Vec3::ZERO, |all| Vec3::from(all[i]));
     let uv = |i: usize| uvs.map_or(Vec2::ZERO, |all| Vec2::from(all[i]));
@@ -377,8 +471,14 @@ pub fn attributes(corner_counts: &[u32], uvs: Option<&[[f32; 2]]>, normals: Opti
     for count in corner_counts.iter().map(|n| *n as usize) {
         let range = first..first + count;
         let n = count as f32;
-        let mean_colour = range.clone().fold([0.0; 4], |sum, i| std::array::from_fn(|c| sum[c] + colour(i)[c] / n));
-        all.push(make(range.clone().map(normal).sum::<Vec3>().normalize_or_zero(), mean_colour, range.map(uv).sum::<Vec2>() / n));
+        let mean_colour = range
+            .clone()
+            .fold([0.0; 4], |sum, i| std::array::from_fn(|c| sum[c] + colour(i)[c] / n));
+        all.push(make(
+            range.clone().map(normal).sum::<Vec3>().normalize_or_zero(),
+            mean_colour,
+            range.map(uv).sum::<Vec2>() / n,
+        ));
         first += count;
     }
     all

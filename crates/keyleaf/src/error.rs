@@ -4,7 +4,9 @@
 #[derive(Debug, thiserror::Error)]
 pub enum KeyleafError {
     /// The capacity cannot hold the roots of the surface.
-    #[error("capacity of {capacity} leaves is smaller than the {roots} roots of the surface: raise it to at least {roots}")]
+    #[error(
+        "capacity of {capacity} leaves is smaller than the {roots} roots of the surface: raise it to at least {roots}"
+    )]
     CapacityBelowRoots {
         /// Leaves asked for.
         capacity: u32,
@@ -12,7 +14,9 @@ pub enum KeyleafError {
         roots: u32,
     },
     /// A buffer would be larger than the device allows.
-    #[error("{buffer} for {items} {what} needs {bytes} bytes, more than the {limit} bytes that this device binds at once: at most {most} {what} fit")]
+    #[error(
+        "{buffer} for {items} {what} needs {bytes} bytes, more than the {limit} bytes that this device binds at once: at most {most} {what} fit"
+    )]
     BeyondLimits {
         /// Name of the buffer.
         buffer: &'static str,
@@ -41,7 +45,9 @@ pub enum KeyleafError {
     #[error("these leaves are not a balanced quadtree: {0}")]
     Leaves(String),
     /// A texture of a surface is larger than the device allows.
-    #[error("a texture of {width}x{height} samples is larger than the {limit} that this device allows a side: scale it down or cut it")]
+    #[error(
+        "a texture of {width}x{height} samples is larger than the {limit} that this device allows a side: scale it down or cut it"
+    )]
     TextureTooLarge {
         /// Samples across.
         width: u32,
@@ -51,7 +57,9 @@ pub enum KeyleafError {
         limit: u32,
     },
     /// No adapter that can compute and draw was found.
-    #[error("no graphics adapter found ({0}): install a Vulkan driver (on Debian and Ubuntu without a GPU: libvulkan1 mesa-vulkan-drivers)")]
+    #[error(
+        "no graphics adapter found ({0}): install a Vulkan driver (on Debian and Ubuntu without a GPU: libvulkan1 mesa-vulkan-drivers)"
+    )]
     NoAdapter(String),
     /// The adapter gave no device.
     #[error("the adapter {adapter} gave no device: {reason}")]

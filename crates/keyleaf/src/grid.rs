@@ -49,12 +49,24 @@ impl GridBuffers {
         let mut indices = grid.indices;
         indices.resize(indices.len().next_multiple_of(2), 0); // buffers are multiples of 4 bytes
         let make = |label, contents: &[u8], usage| {
-            device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
+            device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some(label),
+                contents,
+                usage,
+            })
         };
         Self {
             k,
-            vertices: make("keyleaf.grid.vertices", bytemuck::cast_slice(&grid.vertices), wgpu::BufferUsages::VERTEX),
-            indices: make("keyleaf.grid.indices", bytemuck::cast_slice(&indices), wgpu::BufferUsages::INDEX),
+            vertices: make(
+                "keyleaf.grid.vertices",
+                bytemuck::cast_slice(&grid.vertices),
+                wgpu::BufferUsages::VERTEX,
+            ),
+            indices: make(
+                "keyleaf.grid.indices",
+                bytemuck::cast_slice(&indices),
+                wgpu::BufferUsages::INDEX,
+            ),
         }
     }
 }
@@ -69,7 +81,12 @@ mod tests {
             let grid = BaseGrid::new(k);
             assert_eq!(grid.indices.len(), 3 << (2 * k));
             for triangle in grid.indices.chunks(3) {
-                let p = |v: u16| (i64::from(grid.vertices[v as usize] & 0xffff), i64::from(grid.vertices[v as usize] >> 16));
+                let p = |v: u16| {
+                    (
+                        i64::from(grid.vertices[v as usize] & 0xffff),
+                        i64::from(grid.vertices[v as usize] >> 16),
+                    )
+                };
                 let [a, b, c] = [p(triangle[0]), p(triangle[1]), p(triangle[2])];
                 assert_eq!((b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0), 1);
             }

@@ -22,8 +22,14 @@ impl Headless {
     /// [`KeyleafError::NoAdapter`] or [`KeyleafError::NoDevice`].
     pub async fn request() -> Result<Self, KeyleafError> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
-        let options = wgpu::RequestAdapterOptions { power_preference: wgpu::PowerPreference::HighPerformance, ..Default::default() };
-        let adapter = instance.request_adapter(&options).await.map_err(|e| KeyleafError::NoAdapter(e.to_string()))?;
+        let options = wgpu::RequestAdapterOptions {
+            power_preference: wgpu::PowerPreference::HighPerformance,
+            ..Default::default()
+        };
+        let adapter = instance
+            .request_adapter(&options)
+            .await
+            .map_err(|e| KeyleafError::NoAdapter(e.to_string()))?;
         Self::from_adapter(adapter).await
     }
 
@@ -41,7 +47,10 @@ impl Headless {
         let (device, queue) = adapter
             .request_device(&descriptor)
             .await
-            .map_err(|e| KeyleafError::NoDevice { adapter: adapter.get_info().name, reason: e.to_string() })?;
+            .map_err(|e| KeyleafError::NoDevice {
+                adapter: adapter.get_info().name,
+                reason: e.to_string(),
+            })?;
         Ok(Self { adapter, device, queue })
     }
 

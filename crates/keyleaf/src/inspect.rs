@@ -91,7 +91,13 @@ impl Inspector {
     ///
     /// # Errors
     /// [`KeyleafError::ReadBack`] if the device is lost.
-    pub fn emit(&self, device: &wgpu::Device, queue: &wgpu::Queue, quadtree: &Quadtree, slots: &[u32]) -> Result<Emitted, KeyleafError> {
+    pub fn emit(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        quadtree: &Quadtree,
+        slots: &[u32],
+    ) -> Result<Emitted, KeyleafError> {
         let k = quadtree.settings().base_grid;
         let grid = BaseGrid::new(k).vertices;
         let a_leaf = 32 * grid.len() as u64;
@@ -108,7 +114,12 @@ impl Inspector {
                 &self.emit,
                 quadtree,
                 emission,
-                &[(1, &buffers.leaves), (2, &buffers.state), (3, &slots), (4, &grid_buffer)],
+                &[
+                    (1, &buffers.leaves),
+                    (2, &buffers.state),
+                    (3, &slots),
+                    (4, &grid_buffer),
+                ],
                 (5, a_leaf * part.len() as u64),
                 part.len() as u32 * grid.len() as u32,
             )?;
@@ -124,7 +135,13 @@ impl Inspector {
     ///
     /// # Errors
     /// [`KeyleafError::ReadBack`] if the device is lost.
-    pub fn evaluate(&self, device: &wgpu::Device, queue: &wgpu::Queue, quadtree: &Quadtree, points: &[RootPoint]) -> Result<Vec<GpuFrame>, KeyleafError> {
+    pub fn evaluate(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        quadtree: &Quadtree,
+        points: &[RootPoint],
+    ) -> Result<Vec<GpuFrame>, KeyleafError> {
         let mut frames = Vec::with_capacity(points.len());
         for part in points.chunks((PIECE / 64) as usize) {
             let requests: Vec<[u32; 4]> = part.iter().map(|p| [p.face, p.root, p.x, p.y]).collect();
@@ -141,12 +158,18 @@ impl Inspector {
                 count,
             )?;
             let vector = |w: [f32; 4]| Vec3::new(w[0], w[1], w[2]);
-            frames.extend(words.as_chunks::<4>().0.iter().map(|[position, du, dv, normal]| GpuFrame {
-                position: vector(*position),
-                du: vector(*du),
-                dv: vector(*dv),
-                normal: vector(*normal),
-            }));
+            frames.extend(
+                words
+                    .as_chunks::<4>()
+                    .0
+                    .iter()
+                    .map(|[position, du, dv, normal]| GpuFrame {
+                        position: vector(*position),
+                        du: vector(*du),
+                        dv: vector(*dv),
+                        normal: vector(*normal),
+                    }),
+            );
         }
         Ok(frames)
     }
@@ -165,17 +188,32 @@ impl Inspector {
         items: u32,
     ) -> Result<Vec<[f32; 4]>, KeyleafError> {
         use wgpu::BufferUsages as U;
-        let make = |label, size, usage| device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false });
+        let make = |label, size, usage| {
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size,
+                usage,
+                mapped_at_creation: false,
+            })
+        };
         let output = make("keyleaf.inspect.output", bytes, U::STORAGE | U::COPY_SRC);
         let staging = make("keyleaf.inspect.staging", bytes, U::MAP_READ | U::COPY_DST);
         let parameters = make("keyleaf.inspect.parameters", 16, U::UNIFORM | U::COPY_DST);
         write_uniform(queue, &parameters, &uniform);
-        let mut resources = vec![(0, parameters.as_entire_binding()), (output_binding, output.as_entire_binding())];
+        let mut resources = vec![
+            (0, parameters.as_entire_binding()),
+            (output_binding, output.as_entire_binding()),
+        ];
         resources.extend(inputs.iter().map(|(n, buffer)| (*n, buffer.as_entire_binding())));
         let group = binding::group(device, "keyleaf.inspect", layout, &resources);
-        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("keyleaf.inspect") });
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor {
+            label: Some("keyleaf.inspect"),
+        });
         {
-            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("keyleaf.inspect"), timestamp_writes: None });
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some("keyleaf.inspect"),
+                timestamp_writes: None,
+            });
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &group, &[]);
             pass.set_bind_group(1, quadtree.surface_group(), &[]);
@@ -184,10 +222,18 @@ impl Inspector {
         }
         encoder.copy_buffer_to_buffer(&output, 0, &staging, 0, Some(bytes));
         queue.submit([encoder.finish()]);
-        Ok(bytemuck::pod_collect_to_vec(&map(device, "evaluated points", &staging)?))
+        Ok(bytemuck::pod_collect_to_vec(&map(
+            device,
+            "evaluated points",
+            &staging,
+        )?))
     }
 }
 
 fn storage(device: &wgpu::Device, label: &str, contents: &[u8]) -> wgpu::Buffer {
-    device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage: wgpu::BufferUsages::STORAGE })
+    device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+        label: Some(label),
+        contents,
+        usage: wgpu::BufferUsages::STORAGE,
+    })
 }

@@ -52,19 +52,53 @@ pub fn modules(kind: &Kind) -> Vec<Module> {
     const COPY: &[Binding] = &[Uniform, Write, Write];
     let (speaker, decide, change): (_, _, &[_]) = match kind.balance {
         Balance::Table => ("shared/balance.wgsl", "passes/decide.wgsl", &["passes/apply.wgsl"]),
-        Balance::Off => ("shared/balance_off.wgsl", "passes/decide_alone.wgsl", &["passes/apply_alone.wgsl"]),
+        Balance::Off => (
+            "shared/balance_off.wgsl",
+            "passes/decide_alone.wgsl",
+            &["passes/apply_alone.wgsl"],
+        ),
     };
     let mut all = vec![
         module("update", &["passes/update.wgsl", speaker], UPDATE, false, &["update"]),
         module("decide", &[decide], DECIDE, true, &["decide"]),
         module("apply", change, APPLY, true, &["apply"]),
-        module("measure", &["passes/measure.wgsl", speaker, kind.surface, kind.metric], MEASURE, true, &["measure", "measure_all"]),
-        module("compact", &["passes/compact.wgsl"], COMPACT, false, &["match_slots", "move_leaves"]),
-        module("copy", &["passes/copy.wgsl"], COPY, false, &["copy_changes", "copy_leaves", "copy_counts"]),
+        module(
+            "measure",
+            &["passes/measure.wgsl", speaker, kind.surface, kind.metric],
+            MEASURE,
+            true,
+            &["measure", "measure_all"],
+        ),
+        module(
+            "compact",
+            &["passes/compact.wgsl"],
+            COMPACT,
+            false,
+            &["match_slots", "move_leaves"],
+        ),
+        module(
+            "copy",
+            &["passes/copy.wgsl"],
+            COPY,
+            false,
+            &["copy_changes", "copy_leaves", "copy_counts"],
+        ),
     ];
     if kind.balance == Balance::Table {
-        all.push(module("flag", &["passes/flag.wgsl"], DECIDE, true, &["flag", "flag_all"]));
-        all.push(module("rebuild", &["passes/rebuild.wgsl"], REBUILD, false, &["clear_table", "enter_leaves"]));
+        all.push(module(
+            "flag",
+            &["passes/flag.wgsl"],
+            DECIDE,
+            true,
+            &["flag", "flag_all"],
+        ));
+        all.push(module(
+            "rebuild",
+            &["passes/rebuild.wgsl"],
+            REBUILD,
+            false,
+            &["clear_table", "enter_leaves"],
+        ));
     }
     all
 }
@@ -96,7 +130,11 @@ impl Passes {
         for module in modules(&kind) {
             stages.push((module.name, stage(device, &module, &surface_layout)?));
         }
-        Ok(Self { surface_layout, kind, stages })
+        Ok(Self {
+            surface_layout,
+            kind,
+            stages,
+        })
     }
 
     /// The stage of a module that the kind has; `None` for one that it lacks.
@@ -112,7 +150,11 @@ fn stage(device: &wgpu::Device, module: &Module, surface: &wgpu::BindGroupLayout
         source: wgpu::ShaderSource::Wgsl(compose(&module.files)?.into()),
     });
     let layout = binding::layout(device, &label, wgpu::ShaderStages::COMPUTE, module.bindings);
-    let groups = if module.uses_surface { vec![Some(&layout), Some(surface)] } else { vec![Some(&layout)] };
+    let groups = if module.uses_surface {
+        vec![Some(&layout), Some(surface)]
+    } else {
+        vec![Some(&layout)]
+    };
     let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some(&label),
         bind_group_layouts: &groups,
@@ -135,5 +177,9 @@ fn stage(device: &wgpu::Device, module: &Module, surface: &wgpu::BindGroupLayout
             })
         })
         .collect();
-    Ok(Stage { layout, pipelines, uses_surface: module.uses_surface })
+    Ok(Stage {
+        layout,
+        pipelines,
+        uses_surface: module.uses_surface,
+    })
 }

@@ -100,7 +100,8 @@ impl Quadtree {
     ) -> Result<Self, KeyleafError> {
         settings.validate()?;
         check_capacity(device, surface.as_ref(), settings.capacity)?;
-        let surface_buffers = SurfaceBuffers::new(device, queue, &passes.surface_layout, surface.as_ref(), DVec3::ZERO)?;
+        let surface_buffers =
+            SurfaceBuffers::new(device, queue, &passes.surface_layout, surface.as_ref(), DVec3::ZERO)?;
         let buffers = Buffers::new(device, settings.capacity);
         let groups = Groups::new(device, &passes, &buffers);
         let mut quadtree = Self {
@@ -151,7 +152,13 @@ impl Quadtree {
     /// Settings out of range, or another capacity, kind of metric or balance than the quadtree was made with.
     pub fn set_settings(&mut self, settings: Settings) -> Result<(), KeyleafError> {
         settings.validate()?;
-        let fixed = |setting, value: String| Err(KeyleafError::Setting { setting, value, expected: "fixed when the quadtree is made" });
+        let fixed = |setting, value: String| {
+            Err(KeyleafError::Setting {
+                setting,
+                value,
+                expected: "fixed when the quadtree is made",
+            })
+        };
         if settings.capacity != self.settings.capacity {
             return fixed("capacity", settings.capacity.to_string());
         }
@@ -161,7 +168,8 @@ impl Quadtree {
         if settings.balance != self.settings.balance {
             return fixed("balance", format!("{:?}", settings.balance));
         }
-        self.needs_measure |= settings.max_level != self.settings.max_level || settings.base_grid != self.settings.base_grid;
+        self.needs_measure |=
+            settings.max_level != self.settings.max_level || settings.base_grid != self.settings.base_grid;
         self.settings = settings;
         Ok(())
     }
@@ -172,7 +180,11 @@ impl Quadtree {
     /// [`KeyleafError::Leaves`] if there are more than the capacity, or if they do not cover every root exactly once.
     pub fn set_leaves(&mut self, queue: &wgpu::Queue, leaves: &[Place]) -> Result<(), KeyleafError> {
         if leaves.len() > self.settings.capacity as usize {
-            return Err(KeyleafError::Leaves(format!("{} leaves exceed the capacity of {}", leaves.len(), self.settings.capacity)));
+            return Err(KeyleafError::Leaves(format!(
+                "{} leaves exceed the capacity of {}",
+                leaves.len(),
+                self.settings.capacity
+            )));
         }
         let mut area = std::collections::HashMap::new();
         for leaf in leaves {
@@ -198,7 +210,11 @@ impl Quadtree {
         queue.write_buffer(&self.buffers.leaves, 0, bytemuck::cast_slice(&records));
         queue.write_buffer(&self.buffers.state, 0, bytemuck::cast_slice(&states));
         let requests = vec![0u32; leaves.len()];
-        queue.write_buffer(&self.buffers.state, 4 * u64::from(self.settings.capacity), bytemuck::cast_slice(&requests));
+        queue.write_buffer(
+            &self.buffers.state,
+            4 * u64::from(self.settings.capacity),
+            bytemuck::cast_slice(&requests),
+        );
         let control = Control {
             leaves: leaves.len() as u32,
             allocated: leaves.len() as u32,
@@ -212,7 +228,10 @@ impl Quadtree {
         // The first update clears and fills the table, and measures all leaves, before anything is decided.
         put(arguments::LEAVES, layout::groups_for(count, layout::GROUP_SIZE));
         put(arguments::ENTER, layout::groups_for(count, layout::GROUP_SIZE));
-        put(arguments::CLEAR, layout::groups_for(layout::table_entries(self.settings.capacity), 4 * layout::GROUP_SIZE));
+        put(
+            arguments::CLEAR,
+            layout::groups_for(layout::table_entries(self.settings.capacity), 4 * layout::GROUP_SIZE),
+        );
         queue.write_buffer(&self.buffers.arguments, 0, bytemuck::cast_slice(&words));
         self.needs_measure = true;
         self.reader.forget();
@@ -232,7 +251,12 @@ impl Quadtree {
         timestamps: Option<wgpu::ComputePassTimestampWrites<'_>>,
     ) {
         self.follow(queue, view);
-        let mut frame = Frame::new(view, &self.world_from_object, self.surface_buffers.origin, &self.settings);
+        let mut frame = Frame::new(
+            view,
+            &self.world_from_object,
+            self.surface_buffers.origin,
+            &self.settings,
+        );
         frame.view_serial = self.frame.map_or(0, |last| last.view_serial);
         if self.frame != Some(frame) {
             frame.view_serial = frame.view_serial.wrapping_add(1);
@@ -243,7 +267,10 @@ impl Quadtree {
             queue.write_buffer(&self.buffers.frame, 0, &bytes.into_inner());
         }
         {
-            let descriptor = wgpu::ComputePassDescriptor { label: Some("keyleaf.update"), timestamp_writes: timestamps };
+            let descriptor = wgpu::ComputePassDescriptor {
+                label: Some("keyleaf.update"),
+                timestamp_writes: timestamps,
+            };
             let mut pass = encoder.begin_compute_pass(&descriptor);
             if std::mem::take(&mut self.needs_measure) {
                 self.measure_all(&mut pass);
@@ -259,7 +286,13 @@ impl Quadtree {
     /// drawn must not depend on where the camera came from. Seen from far away, the nearest point of the object counts.
     fn follow(&mut self, queue: &wgpu::Queue, view: &View) {
         let eye = self.world_from_object.inverse().transform_point3(view.eye);
-        let scale = self.world_from_object.matrix3.determinant().abs().cbrt().max(f64::MIN_POSITIVE);
+        let scale = self
+            .world_from_object
+            .matrix3
+            .determinant()
+            .abs()
+            .cbrt()
+            .max(f64::MIN_POSITIVE);
         let cell = (view.origin_cell() / scale).log2().floor().exp2();
         let (least, most) = self.surface.bounding_box();
         let origin = (eye.clamp(least, most) / cell).round() * cell;
@@ -298,7 +331,13 @@ impl Quadtree {
         self.dispatch_one(pass, "copy", 2, &self.groups.copy);
     }
 
-    fn bind<'a>(&'a self, pass: &mut wgpu::ComputePass<'_>, name: &str, entry: usize, group: &wgpu::BindGroup) -> Option<&'a Stage> {
+    fn bind<'a>(
+        &'a self,
+        pass: &mut wgpu::ComputePass<'_>,
+        name: &str,
+        entry: usize,
+        group: &wgpu::BindGroup,
+    ) -> Option<&'a Stage> {
         let stage = self.passes.stage(name)?;
         pass.set_pipeline(stage.pipelines.get(entry)?);
         pass.set_bind_group(0, group, &[]);
@@ -363,7 +402,14 @@ fn check_capacity(device: &wgpu::Device, surface: &dyn Surface, capacity: u32) -
             while layout::buffer_bytes(most).iter().any(|(_, b)| *b > limit) {
                 most -= (most / 64).max(1);
             }
-            return Err(KeyleafError::BeyondLimits { buffer, what: "leaves", items: capacity.into(), bytes, limit, most: most.into() });
+            return Err(KeyleafError::BeyondLimits {
+                buffer,
+                what: "leaves",
+                items: capacity.into(),
+                bytes,
+                limit,
+                most: most.into(),
+            });
         }
     }
     Ok(())
@@ -373,11 +419,19 @@ impl Buffers {
     fn new(device: &wgpu::Device, capacity: u32) -> Self {
         use wgpu::BufferUsages as U;
         let make = |label: &str, size: u64, usage: U| {
-            device.create_buffer(&wgpu::BufferDescriptor { label: Some(label), size, usage, mapped_at_creation: false })
+            device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some(label),
+                size,
+                usage,
+                mapped_at_creation: false,
+            })
         };
         let storage = U::STORAGE | U::COPY_DST | U::COPY_SRC;
         let sized = |name: &str| {
-            let bytes = layout::buffer_bytes(capacity).iter().find(|(n, _)| *n == name).map_or(16, |(_, b)| (*b).max(16));
+            let bytes = layout::buffer_bytes(capacity)
+                .iter()
+                .find(|(n, _)| *n == name)
+                .map_or(16, |(_, b)| (*b).max(16));
             make(&format!("keyleaf.{name}"), bytes, storage)
         };
         use encase::ShaderType;
@@ -399,24 +453,48 @@ impl Groups {
     fn new(device: &wgpu::Device, passes: &Passes, b: &Buffers) -> Self {
         let group = |name: &str, buffers: &[(u32, &wgpu::Buffer)]| {
             passes.stage(name).map(|stage| {
-                let resources: Vec<_> = buffers.iter().map(|(n, buffer)| (*n, buffer.as_entire_binding())).collect();
+                let resources: Vec<_> = buffers
+                    .iter()
+                    .map(|(n, buffer)| (*n, buffer.as_entire_binding()))
+                    .collect();
                 binding::group(device, &format!("keyleaf.{name}"), &stage.layout, &resources)
             })
         };
         let required = |name: &str, buffers: &[(u32, &wgpu::Buffer)]| {
             group(name, buffers).unwrap_or_else(|| unreachable!("every kind has the module {name}"))
         };
-        let leaves_on = [(0, &b.frame), (1, &b.leaves), (2, &b.table), (3, &b.state), (4, &b.lists), (5, &b.control)];
+        let leaves_on = [
+            (0, &b.frame),
+            (1, &b.leaves),
+            (2, &b.table),
+            (3, &b.state),
+            (4, &b.lists),
+            (5, &b.control),
+        ];
         Self {
             update: required(
                 "update",
-                &[(0, &b.frame), (1, &b.measures), (2, &b.parents), (3, &b.state), (4, &b.lists), (5, &b.control)],
+                &[
+                    (0, &b.frame),
+                    (1, &b.measures),
+                    (2, &b.parents),
+                    (3, &b.state),
+                    (4, &b.lists),
+                    (5, &b.control),
+                ],
             ),
             decide: required("decide", &leaves_on),
             apply: required("apply", &leaves_on),
             measure: required(
                 "measure",
-                &[(0, &b.frame), (1, &b.leaves), (2, &b.measures), (3, &b.parents), (4, &b.lists), (5, &b.control)],
+                &[
+                    (0, &b.frame),
+                    (1, &b.leaves),
+                    (2, &b.measures),
+                    (3, &b.parents),
+                    (4, &b.lists),
+                    (5, &b.control),
+                ],
             ),
             compact: required(
                 "compact",
@@ -432,7 +510,10 @@ impl Groups {
                 ],
             ),
             copy: required("copy", &[(0, &b.frame), (1, &b.control), (2, &b.arguments)]),
-            rebuild: group("rebuild", &[(0, &b.frame), (1, &b.leaves), (2, &b.table), (5, &b.control)]),
+            rebuild: group(
+                "rebuild",
+                &[(0, &b.frame), (1, &b.leaves), (2, &b.table), (5, &b.control)],
+            ),
         }
     }
 }

@@ -37,11 +37,25 @@ impl Quadtree {
     /// [`KeyleafError::ReadBack`] if the device is lost.
     pub fn read_back(&self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Snapshot, KeyleafError> {
         let buffers = self.buffers();
-        let control: Control = bytemuck::pod_read_unaligned(&read(device, queue, "control", &buffers.control, 0, size_of::<Control>() as u64)?);
+        let control: Control = bytemuck::pod_read_unaligned(&read(
+            device,
+            queue,
+            "control",
+            &buffers.control,
+            0,
+            size_of::<Control>() as u64,
+        )?);
         let slots = u64::from(self.settings().capacity);
         let count = u64::from(control.leaves);
         let words = |name, buffer, from: u64, n: u64| -> Result<Vec<u32>, KeyleafError> {
-            Ok(bytemuck::pod_collect_to_vec(&read(device, queue, name, buffer, 4 * from, 4 * n)?))
+            Ok(bytemuck::pod_collect_to_vec(&read(
+                device,
+                queue,
+                name,
+                buffer,
+                4 * from,
+                4 * n,
+            )?))
         };
         Ok(Snapshot {
             leaves: bytemuck::pod_collect_to_vec(&read(device, queue, "leaves", &buffers.leaves, 0, 32 * count)?),
@@ -76,7 +90,9 @@ pub fn read(
         usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
         mapped_at_creation: false,
     });
-    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("keyleaf.read_back") });
+    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor {
+        label: Some("keyleaf.read_back"),
+    });
     encoder.copy_buffer_to_buffer(buffer, offset, &staging, 0, Some(size));
     queue.submit([encoder.finish()]);
     map(device, name, &staging)
@@ -89,9 +105,17 @@ pub(crate) fn map(device: &wgpu::Device, name: &'static str, staging: &wgpu::Buf
     staging.map_async(wgpu::MapMode::Read, .., move |result| {
         let _ = sender.send(result); // the receiver is gone only if poll failed below
     });
-    device.poll(wgpu::PollType::wait_indefinitely()).map_err(|e| failed(e.to_string()))?;
-    receiver.recv().map_err(|e| failed(e.to_string()))?.map_err(|e| failed(e.to_string()))?;
-    let bytes = staging.get_mapped_range(..).map_err(|e| failed(e.to_string()))?.to_vec();
+    device
+        .poll(wgpu::PollType::wait_indefinitely())
+        .map_err(|e| failed(e.to_string()))?;
+    receiver
+        .recv()
+        .map_err(|e| failed(e.to_string()))?
+        .map_err(|e| failed(e.to_string()))?;
+    let bytes = staging
+        .get_mapped_range(..)
+        .map_err(|e| failed(e.to_string()))?
+        .to_vec();
     staging.unmap();
     Ok(bytes)
 }

@@ -101,20 +101,75 @@ impl Settings {
     /// # Errors
     /// [`KeyleafError::Setting`] names the first one.
     pub fn validate(&self) -> Result<(), KeyleafError> {
-        fn check(holds: bool, setting: &'static str, value: impl ToString, expected: &'static str) -> Result<(), KeyleafError> {
-            if holds { Ok(()) } else { Err(KeyleafError::Setting { setting, value: value.to_string(), expected }) }
+        fn check(
+            holds: bool,
+            setting: &'static str,
+            value: impl ToString,
+            expected: &'static str,
+        ) -> Result<(), KeyleafError> {
+            if holds {
+                Ok(())
+            } else {
+                Err(KeyleafError::Setting {
+                    setting,
+                    value: value.to_string(),
+                    expected,
+                })
+            }
         }
         let positive = |x: f32| x.is_finite() && x > 0.0;
         match self.metric {
-            Metric::Edge { pixels } => check(positive(pixels), "metric.pixels", pixels, "expected a positive number of pixels")?,
-            Metric::Distance { factor } => check(positive(factor), "metric.factor", factor, "expected a positive factor")?,
+            Metric::Edge { pixels } => check(
+                positive(pixels),
+                "metric.pixels",
+                pixels,
+                "expected a positive number of pixels",
+            )?,
+            Metric::Distance { factor } => {
+                check(positive(factor), "metric.factor", factor, "expected a positive factor")?
+            }
         }
-        check(self.base_grid <= Self::MAX_BASE_GRID, "base_grid", self.base_grid, "expected 0 to 6")?;
-        check(self.capacity >= 1, "capacity", self.capacity, "expected at least 1 leaf")?;
-        check(self.capacity <= crate::layout::MAX_CAPACITY, "capacity", self.capacity, "expected at most 16777213 leaves")?;
-        check((1..=Self::MAX_SETTLE).contains(&self.settle), "settle", self.settle, "expected 1 to 64 passes")?;
-        check(self.max_level + self.base_grid <= MAX_LEVEL, "max_level", self.max_level, "expected at most 31 - base_grid")?;
-        check(self.guard_band.is_finite() && self.guard_band >= 0.0, "guard_band", self.guard_band, "expected 0 or more")?;
-        check(positive(self.guard_factor) && self.guard_factor <= 1.0, "guard_factor", self.guard_factor, "expected above 0, at most 1")
+        check(
+            self.base_grid <= Self::MAX_BASE_GRID,
+            "base_grid",
+            self.base_grid,
+            "expected 0 to 6",
+        )?;
+        check(
+            self.capacity >= 1,
+            "capacity",
+            self.capacity,
+            "expected at least 1 leaf",
+        )?;
+        check(
+            self.capacity <= crate::layout::MAX_CAPACITY,
+            "capacity",
+            self.capacity,
+            "expected at most 16777213 leaves",
+        )?;
+        check(
+            (1..=Self::MAX_SETTLE).contains(&self.settle),
+            "settle",
+            self.settle,
+            "expected 1 to 64 passes",
+        )?;
+        check(
+            self.max_level + self.base_grid <= MAX_LEVEL,
+            "max_level",
+            self.max_level,
+            "expected at most 31 - base_grid",
+        )?;
+        check(
+            self.guard_band.is_finite() && self.guard_band >= 0.0,
+            "guard_band",
+            self.guard_band,
+            "expected 0 or more",
+        )?;
+        check(
+            positive(self.guard_factor) && self.guard_factor <= 1.0,
+            "guard_factor",
+            self.guard_factor,
+            "expected above 0, at most 1",
+        )
     }
 }

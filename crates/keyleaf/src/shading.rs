@@ -199,6 +199,8 @@ impl Background {
         };
         let (x, y) = ((tangent * view.aspect()) as f32, tangent as f32);
         let rays = Mat4::from_cols(x * Vec4::X, y * Vec4::Y, Vec4::ZERO, -Vec4::Z);
-        Self { world_from_clip: rotation * rays }
+        Self {
+            world_from_clip: rotation * rays,
+        }
     }
 }

@@ -90,13 +90,20 @@ impl StatisticsReader {
             stage: Arc::new(AtomicU32::new(IDLE)),
             number: 0,
         };
-        Self { slots: (0..Self::SLOTS).map(slot).collect(), recorded: 0, latest: None, forgotten: 0 }
+        Self {
+            slots: (0..Self::SLOTS).map(slot).collect(),
+            recorded: 0,
+            latest: None,
+            forgotten: 0,
+        }
     }
 
     /// Copies the counters when the encoder is submitted, and maps them then.
     pub fn record(&mut self, encoder: &mut wgpu::CommandEncoder, control: &wgpu::Buffer) {
         self.collect();
-        let Some(slot) = self.slots.iter_mut().find(|s| s.stage.load(Ordering::Acquire) == IDLE) else { return };
+        let Some(slot) = self.slots.iter_mut().find(|s| s.stage.load(Ordering::Acquire) == IDLE) else {
+            return;
+        };
         self.recorded += 1;
         slot.number = self.recorded;
         slot.stage.store(PENDING, Ordering::Release);
@@ -117,7 +124,11 @@ impl StatisticsReader {
             if slot.stage.load(Ordering::Acquire) != READY {
                 continue;
             }
-            let control = slot.buffer.get_mapped_range(..).ok().map(|view| bytemuck::pod_read_unaligned::<Control>(&view));
+            let control = slot
+                .buffer
+                .get_mapped_range(..)
+                .ok()
+                .map(|view| bytemuck::pod_read_unaligned::<Control>(&view));
             slot.buffer.unmap();
             slot.stage.store(IDLE, Ordering::Release);
             if let Some(control) = control

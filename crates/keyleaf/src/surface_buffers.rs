@@ -7,12 +7,22 @@ use keyleaf_surface::{Surface, SurfaceTables, TextureData};
 use wgpu::util::DeviceExt;
 
 /// Bindings of group 1: parameters, topology, tables A and B, heights, bounds of heights.
-const BINDINGS: [Binding; 6] =
-    [Binding::Uniform, Binding::Read, Binding::Read, Binding::Read, Binding::Texels, Binding::Texels];
+const BINDINGS: [Binding; 6] = [
+    Binding::Uniform,
+    Binding::Read,
+    Binding::Read,
+    Binding::Read,
+    Binding::Texels,
+    Binding::Texels,
+];
 
 /// The layout of group 1 for the bindings that a surface's shader declares.
 pub(crate) fn surface_layout(device: &wgpu::Device, file: &str) -> Result<wgpu::BindGroupLayout, KeyleafError> {
-    let bindings: Vec<Binding> = declared(file)?.iter().zip(BINDINGS).map(|(is, b)| if *is { b } else { Binding::Absent }).collect();
+    let bindings: Vec<Binding> = declared(file)?
+        .iter()
+        .zip(BINDINGS)
+        .map(|(is, b)| if *is { b } else { Binding::Absent })
+        .collect();
     let stages = wgpu::ShaderStages::COMPUTE | wgpu::ShaderStages::VERTEX;
     Ok(binding::layout(device, "keyleaf.surface", stages, &bindings))
 }
@@ -48,11 +58,33 @@ impl SurfaceBuffers {
         let topology = surface.topology().gpu_words();
         check_sizes(device, &tables, topology.len())?;
 
-        let params = buffer(device, "keyleaf.surface.params", &tables.params, wgpu::BufferUsages::UNIFORM);
-        let topology = buffer(device, "keyleaf.surface.topology", bytemuck::cast_slice(&topology), wgpu::BufferUsages::STORAGE);
-        let a = buffer(device, "keyleaf.surface.a", bytemuck::cast_slice(&tables.a), wgpu::BufferUsages::STORAGE);
-        let b = buffer(device, "keyleaf.surface.b", bytemuck::cast_slice(&tables.b), wgpu::BufferUsages::STORAGE);
-        let upload = |label, data: &Option<std::sync::Arc<TextureData>>| data.as_ref().map(|data| texture(device, queue, label, data));
+        let params = buffer(
+            device,
+            "keyleaf.surface.params",
+            &tables.params,
+            wgpu::BufferUsages::UNIFORM,
+        );
+        let topology = buffer(
+            device,
+            "keyleaf.surface.topology",
+            bytemuck::cast_slice(&topology),
+            wgpu::BufferUsages::STORAGE,
+        );
+        let a = buffer(
+            device,
+            "keyleaf.surface.a",
+            bytemuck::cast_slice(&tables.a),
+            wgpu::BufferUsages::STORAGE,
+        );
+        let b = buffer(
+            device,
+            "keyleaf.surface.b",
+            bytemuck::cast_slice(&tables.b),
+            wgpu::BufferUsages::STORAGE,
+        );
+        let upload = |label, data: &Option<std::sync::Arc<TextureData>>| {
+            data.as_ref().map(|data| texture(device, queue, label, data))
+        };
         let heights = upload("keyleaf.surface.heights", &tables.heights);
         let bounds = upload("keyleaf.surface.height_bounds", &tables.height_bounds);
 
@@ -73,7 +105,13 @@ impl SurfaceBuffers {
         sizes.extend(declared[3].then(|| ("surface B", b.size())));
         sizes.extend(tables.heights.iter().map(|t| ("heights", bytes(t))));
         sizes.extend(tables.height_bounds.iter().map(|t| ("height bounds", bytes(t))));
-        Ok(Self { group, origin, sizes, params, a })
+        Ok(Self {
+            group,
+            origin,
+            sizes,
+            params,
+            a,
+        })
     }
 
     /// Writes the tables anew relative to another origin. Only parameters and table A depend on it.
@@ -88,16 +126,31 @@ impl SurfaceBuffers {
 fn check_sizes(device: &wgpu::Device, tables: &SurfaceTables, topology_words: usize) -> Result<(), KeyleafError> {
     let limits = device.limits();
     let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
-    for (buffer, words) in [("the topology", topology_words), ("surface table A", tables.a.len()), ("surface table B", tables.b.len())] {
+    for (buffer, words) in [
+        ("the topology", topology_words),
+        ("surface table A", tables.a.len()),
+        ("surface table B", tables.b.len()),
+    ] {
         let bytes = 4 * words as u64;
         if bytes > limit {
-            return Err(KeyleafError::BeyondLimits { buffer, what: "words", items: words as u64, bytes, limit, most: limit / 4 });
+            return Err(KeyleafError::BeyondLimits {
+                buffer,
+                what: "words",
+                items: words as u64,
+                bytes,
+                limit,
+                most: limit / 4,
+            });
         }
     }
     let side = limits.max_texture_dimension_2d;
     for data in tables.heights.iter().chain(tables.height_bounds.iter()) {
         if data.width > side || data.height > side {
-            return Err(KeyleafError::TextureTooLarge { width: data.width, height: data.height, limit: side });
+            return Err(KeyleafError::TextureTooLarge {
+                width: data.width,
+                height: data.height,
+                limit: side,
+            });
         }
     }
     Ok(())
@@ -107,7 +160,11 @@ fn check_sizes(device: &wgpu::Device, tables: &SurfaceTables, topology_words: us
 fn buffer(device: &wgpu::Device, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
     let usage = usage | wgpu::BufferUsages::COPY_DST;
     let contents = if contents.is_empty() { &[0u8; 16][..] } else { contents };
-    device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
+    device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+        label: Some(label),
+        contents,
+        usage,
+    })
 }
 
 fn texture(device: &wgpu::Device, queue: &wgpu::Queue, label: &str, data: &TextureData) -> wgpu::TextureView {
@@ -118,7 +175,11 @@ fn texture(device: &wgpu::Device, queue: &wgpu::Queue, label: &str, data: &Textu
     };
     let descriptor = wgpu::TextureDescriptor {
         label: Some(label),
-        size: wgpu::Extent3d { width: data.width, height: data.height, depth_or_array_layers: 1 },
+        size: wgpu::Extent3d {
+            width: data.width,
+            height: data.height,
+            depth_or_array_layers: 1,
+        },
         mip_level_count: data.mips.len() as u32,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
@@ -130,10 +191,23 @@ fn texture(device: &wgpu::Device, queue: &wgpu::Queue, label: &str, data: &Textu
     for (level, texels) in (0u32..).zip(&data.mips) {
         let (width, height) = ((data.width >> level).max(1), (data.height >> level).max(1));
         queue.write_texture(
-            wgpu::TexelCopyTextureInfo { texture: &texture, mip_level: level, origin: wgpu::Origin3d::ZERO, aspect: wgpu::TextureAspect::All },
+            wgpu::TexelCopyTextureInfo {
+                texture: &texture,
+                mip_level: level,
+                origin: wgpu::Origin3d::ZERO,
+                aspect: wgpu::TextureAspect::All,
+            },
             bytemuck::cast_slice(texels),
-            wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(width * data.channels * 4), rows_per_image: Some(height) },
-            wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(width * data.channels * 4),
+                rows_per_image: Some(height),
+            },
+            wgpu::Extent3d {
+                width,
+                height,
+                depth_or_array_layers: 1,
+            },
         );
     }
     texture.create_view(&wgpu::TextureViewDescriptor::default())

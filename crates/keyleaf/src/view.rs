@@ -43,10 +43,19 @@ impl View {
     /// A perspective camera at `eye` that looks at `target`, with Y up as far as that goes.
     pub fn look_at(eye: DVec3, target: DVec3, fov_y: f64, near: f64, viewport: UVec2) -> Self {
         let forward = (target - eye).try_normalize().unwrap_or(DVec3::NEG_Z);
-        let up = if forward.y.abs() > 1.0 - 1e-9 { DVec3::NEG_Z } else { DVec3::Y };
+        let up = if forward.y.abs() > 1.0 - 1e-9 {
+            DVec3::NEG_Z
+        } else {
+            DVec3::Y
+        };
         let right = forward.cross(up).normalize();
         let orientation = DQuat::from_mat3(&DMat3::from_cols(right, right.cross(forward), -forward));
-        Self { eye, orientation, projection: Projection::Perspective { fov_y, near }, viewport }
+        Self {
+            eye,
+            orientation,
+            projection: Projection::Perspective { fov_y, near },
+            viewport,
+        }
     }
 
     /// Width over height.
@@ -180,7 +189,11 @@ impl Frame {
         let to_object = |(n, d): (DVec3, f64)| {
             let n = view_from_object.transpose() * n;
             let length = n.length();
-            if length > 0.0 { (n / length).extend(d / length).as_vec4() } else { Vec4::W }
+            if length > 0.0 {
+                (n / length).extend(d / length).as_vec4()
+            } else {
+                Vec4::W
+            }
         };
         let mut planes = [Vec4::W; 12];
         if settings.cull {
@@ -262,18 +275,26 @@ mod tests {
     #[test]
     fn planes_in_object_space_agree_with_the_projection() {
         let v = view();
-        let object = DAffine3::from_scale_rotation_translation(DVec3::new(1.0, 2.0, 0.5), DQuat::from_rotation_x(0.7), DVec3::new(0.3, -1.0, 2.0));
+        let object = DAffine3::from_scale_rotation_translation(
+            DVec3::new(1.0, 2.0, 0.5),
+            DQuat::from_rotation_x(0.7),
+            DVec3::new(0.3, -1.0, 2.0),
+        );
         let origin = DVec3::new(0.1, 0.2, 0.3);
         let frame = Frame::new(&v, &object, origin, &Settings::default());
         let mut inside_seen = 0;
         for i in 0..4000u32 {
-            let r = |k: u32| f64::from((i * 7919 + k).wrapping_mul(2654435761) >> 8) / f64::from(1u32 << 24) * 16.0 - 8.0;
+            let r =
+                |k: u32| f64::from((i * 7919 + k).wrapping_mul(2654435761) >> 8) / f64::from(1u32 << 24) * 16.0 - 8.0;
             let p = DVec3::new(r(1), r(2), r(3));
             let relative = p.as_vec3() - frame.eye;
             let seen = frame.view_from_object * relative.extend(0.0);
             let clip = frame.clip_from_view * seen.truncate().extend(1.0);
             let in_clip = clip.x.abs() <= clip.w && clip.y.abs() <= clip.w && clip.z <= clip.w && clip.w > 0.0;
-            let least = frame.planes[..6].iter().map(|q| q.truncate().dot(relative) + q.w).fold(f32::INFINITY, f32::min);
+            let least = frame.planes[..6]
+                .iter()
+                .map(|q| q.truncate().dot(relative) + q.w)
+                .fold(f32::INFINITY, f32::min);
             if least.abs() > 1e-4 {
                 assert_eq!(in_clip, least > 0.0, "{p} {least}");
                 inside_seen += u32::from(in_clip);

@@ -71,10 +71,7 @@ pub fn demo() -> anyhow::Result<()> {
 
     println!(
         "{}\n",
-        table::format(
-            &["scene", "leaves", "triangles", "device", "ms per pass"],
-            &rows
-        )
+        table::format(&["scene", "leaves", "triangles", "device", "ms per pass"], &rows)
     );
     println!("Pictures ({SIZE}):");
     for picture in &pictures {
@@ -106,8 +103,7 @@ impl Program {
         let scene = scene_path(scene);
         let mut command = self.command(&["render", &scene, "--size", SIZE, "--json"]);
         let text = run::output(command.arg("-o").arg(picture))?;
-        serde_json::from_str(&text)
-            .with_context(|| format!("`keyleaf render {scene} --json` wrote no JSON"))
+        serde_json::from_str(&text).with_context(|| format!("`keyleaf render {scene} --json` wrote no JSON"))
     }
 
     /// Flies the camera path of a scene; the report that the program wrote.
@@ -115,8 +111,7 @@ impl Program {
         let mut command = self.command(&["bench", &scene_path(scene)]);
         run::output(command.arg("--out").arg(figures))?;
         let path = self.folder.join(figures);
-        let text =
-            fs::read_to_string(&path).with_context(|| format!("cannot read {}", path.display()))?;
+        let text = fs::read_to_string(&path).with_context(|| format!("cannot read {}", path.display()))?;
         serde_json::from_str(&text).with_context(|| format!("{} is not JSON", path.display()))
     }
 }
@@ -149,24 +144,11 @@ fn flight_row(report: &Value) -> Vec<String> {
     let flight = report.pointer(FLIGHT_RUN).unwrap_or(&nothing);
     let frames = count(flight, FLIGHT_FRAMES);
     let title = format!("{FLIGHT}, median of {frames} frames");
-    row(
-        title,
-        report,
-        flight,
-        [FLIGHT_LEAVES, FLIGHT_TRIANGLES, FLIGHT_PASS_MS],
-    )
+    row(title, report, flight, [FLIGHT_LEAVES, FLIGHT_TRIANGLES, FLIGHT_PASS_MS])
 }
 
-fn row(
-    title: String,
-    report: &Value,
-    figures: &Value,
-    [leaves, triangles, ms]: [&str; 3],
-) -> Vec<String> {
-    let device = report
-        .pointer(DEVICE)
-        .and_then(Value::as_str)
-        .unwrap_or("-");
+fn row(title: String, report: &Value, figures: &Value, [leaves, triangles, ms]: [&str; 3]) -> Vec<String> {
+    let device = report.pointer(DEVICE).and_then(Value::as_str).unwrap_or("-");
     vec![
         title,
         count(figures, leaves),
@@ -179,10 +161,7 @@ fn row(
 /// A whole number of the report, `-` where it has none.
 fn count(report: &Value, pointer: &str) -> String {
     let number = report.pointer(pointer).and_then(Value::as_f64);
-    number.map_or_else(
-        || "-".into(),
-        |number| table::thousands(number.round() as u64),
-    )
+    number.map_or_else(|| "-".into(), |number| table::thousands(number.round() as u64))
 }
 
 /// `update 1.20, apply 0.10, …`; `-` where the device has no timestamps.
@@ -199,11 +178,7 @@ fn passes(report: &Value, ms: &str) -> String {
             Some(format!("{name} {:.2}", pass.pointer(ms)?.as_f64()?))
         })
         .collect();
-    if texts.is_empty() {
-        "-".into()
-    } else {
-        texts.join(", ")
-    }
+    if texts.is_empty() { "-".into() } else { texts.join(", ") }
 }
 
 /// How to open the viewer, where there is a display and this build has one.
@@ -229,10 +204,7 @@ mod tests {
             picture_row("cube", &report),
             ["cube", "12,345", "197,520", "llvmpipe", "update 1.23"]
         );
-        assert_eq!(
-            picture_row("cube", &Value::Null),
-            ["cube", "-", "-", "-", "-"]
-        );
+        assert_eq!(picture_row("cube", &Value::Null), ["cube", "-", "-", "-", "-"]);
     }
 
     #[test]

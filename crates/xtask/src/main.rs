@@ -67,9 +67,7 @@ fn main() -> ExitCode {
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            let code = error
-                .downcast_ref::<Failed>()
-                .map_or(1, |failed| failed.code);
+            let code = error.downcast_ref::<Failed>().map_or(1, |failed| failed.code);
             let message = format!("{error:#}");
             if !message.is_empty() {
                 eprintln!("xtask: {message}");
@@ -86,9 +84,7 @@ fn set_up(wanted: bool) -> anyhow::Result<()> {
 fn no_arguments(arguments: &[String]) -> anyhow::Result<()> {
     match arguments.first() {
         None => Ok(()),
-        Some(first) => {
-            Err(Failed::bad_use(format!("unexpected argument `{first}`\n\n{HELP}")).into())
-        }
+        Some(first) => Err(Failed::bad_use(format!("unexpected argument `{first}`\n\n{HELP}")).into()),
     }
 }
 

@@ -38,10 +38,7 @@ impl Failed {
 
     /// A command ended with `status`: its exit code, or 1 where it has none (a signal).
     fn command(command: &Command, status: ExitStatus) -> Self {
-        let code = status
-            .code()
-            .and_then(|code| u8::try_from(code).ok())
-            .unwrap_or(1);
+        let code = status.code().and_then(|code| u8::try_from(code).ok()).unwrap_or(1);
         Self {
             code,
             message: format!("`{}` failed: {status}", line(command)),
@@ -60,10 +57,7 @@ impl std::error::Error for Failed {}
 /// The command as one line, for messages.
 fn line(command: &Command) -> String {
     let words = std::iter::once(command.get_program()).chain(command.get_args());
-    words
-        .map(|word| word.to_string_lossy())
-        .collect::<Vec<_>>()
-        .join(" ")
+    words.map(|word| word.to_string_lossy()).collect::<Vec<_>>().join(" ")
 }
 
 /// Runs a command that writes to this terminal and reads nothing.
@@ -95,8 +89,7 @@ pub fn output(command: &mut Command) -> anyhow::Result<String> {
     if !output.status.success() {
         return Err(Failed::command(command, output.status).into());
     }
-    String::from_utf8(output.stdout)
-        .with_context(|| format!("`{}` wrote bytes that are not UTF-8", line(command)))
+    String::from_utf8(output.stdout).with_context(|| format!("`{}` wrote bytes that are not UTF-8", line(command)))
 }
 
 /// Whether a command can be started and ends with code 0; it writes nothing.
@@ -116,9 +109,7 @@ pub fn succeeds(program: &str, arguments: &[&str]) -> bool {
 /// As [`run`].
 pub fn cargo(arguments: &[&str]) -> anyhow::Result<()> {
     let program = std::env::var_os("CARGO").unwrap_or_else(|| OsString::from("cargo"));
-    run(Command::new(program)
-        .args(arguments)
-        .current_dir(workspace()))
+    run(Command::new(program).args(arguments).current_dir(workspace()))
 }
 
 /// The root of the workspace: two folders above this crate.

@@ -29,11 +29,7 @@ pub fn format(head: &[&str], rows: &[Vec<String>]) -> String {
             *line += &format!("{gap}{}", aligned(text));
         }
     }
-    lines
-        .iter()
-        .map(|line| line.trim_end())
-        .collect::<Vec<_>>()
-        .join("\n")
+    lines.iter().map(|line| line.trim_end()).collect::<Vec<_>>().join("\n")
 }
 
 /// A count with commas between thousands.
@@ -57,19 +53,13 @@ mod tests {
     fn thousands_are_separated_by_commas() {
         assert_eq!(
             ["0", "999", "1,000", "1,234,567"],
-            [0, 999, 1000, 1_234_567]
-                .map(thousands)
-                .each_ref()
-                .map(String::as_str)
+            [0, 999, 1000, 1_234_567].map(thousands).each_ref().map(String::as_str)
         );
     }
 
     #[test]
     fn numbers_are_aligned_to_the_right_and_text_to_the_left() {
-        let rows = [
-            vec!["a".into(), "5".into()],
-            vec!["bcd".into(), "1,000".into()],
-        ];
+        let rows = [vec!["a".into(), "5".into()], vec!["bcd".into(), "1,000".into()]];
         assert_eq!(
             format(&["scene", "n"], &rows),
             "scene      n\n-----  -----\na          5\nbcd    1,000"

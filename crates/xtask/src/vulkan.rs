@@ -29,18 +29,13 @@ pub fn set_up() -> anyhow::Result<()> {
         Ok(driver) => eprintln!("set-up: Vulkan driver {}", driver.display()),
         Err(missing) => {
             if let Some((name, _)) = forced_manifests() {
-                return Err(Failed::bad_use(format!(
-                    "{missing} among what {name} names; correct it or unset it"
-                ))
-                .into());
+                return Err(
+                    Failed::bad_use(format!("{missing} among what {name} names; correct it or unset it")).into(),
+                );
             }
             install(&missing)?;
-            let driver = find().map_err(|missing| {
-                Failed::bad_use(format!(
-                    "{} installed, but {missing}",
-                    PACKAGES.join(" and ")
-                ))
-            })?;
+            let driver = find()
+                .map_err(|missing| Failed::bad_use(format!("{} installed, but {missing}", PACKAGES.join(" and "))))?;
             eprintln!("set-up: installed; Vulkan driver {}", driver.display());
         }
     }
@@ -70,36 +65,20 @@ fn find() -> Result<PathBuf, String> {
 /// Installs the software driver with apt-get as root or through sudo without a password.
 fn install(missing: &str) -> anyhow::Result<()> {
     let has_apt = run::succeeds("apt-get", &["--version"]);
-    let prefix: &[&str] = match (
-        has_apt,
-        is_root(),
-        has_apt && run::succeeds("sudo", &["-n", "true"]),
-    ) {
+    let prefix: &[&str] = match (has_apt, is_root(), has_apt && run::succeeds("sudo", &["-n", "true"])) {
         (true, true, _) => &["env"],
         (true, false, true) => &["sudo", "-n", "env"],
         _ => {
-            return Err(
-                Failed::bad_use(format!("{missing}. Run:\n\n    {}\n", advice(has_apt))).into(),
-            );
+            return Err(Failed::bad_use(format!("{missing}. Run:\n\n    {}\n", advice(has_apt))).into());
         }
     };
-    eprintln!(
-        "set-up: {missing}; installing {} with apt-get",
-        PACKAGES.join(" and ")
-    );
+    eprintln!("set-up: {missing}; installing {} with apt-get", PACKAGES.join(" and "));
     let apt_get = |arguments: &[&str]| {
         let mut command = Command::new(prefix[0]);
-        command.args(&prefix[1..]).args([
-            "DEBIAN_FRONTEND=noninteractive",
-            "apt-get",
-            "--quiet",
-            "--yes",
-        ]);
-        run::run(
-            command
-                .args(["--option", "DPkg::Lock::Timeout=120"])
-                .args(arguments),
-        )
+        command
+            .args(&prefix[1..])
+            .args(["DEBIAN_FRONTEND=noninteractive", "apt-get", "--quiet", "--yes"]);
+        run::run(command.args(["--option", "DPkg::Lock::Timeout=120"]).args(arguments))
     };
     if let Err(error) = apt_get(&["update"]) {
         // One broken source of many need not matter.
@@ -107,9 +86,7 @@ fn install(missing: &str) -> anyhow::Result<()> {
     }
     let mut arguments = vec!["install", "--no-install-recommends"];
     arguments.extend(PACKAGES);
-    apt_get(&arguments).map_err(|error| {
-        Failed::bad_use(format!("{error:#}. Run:\n\n    {}\n", advice(true))).into()
-    })
+    apt_get(&arguments).map_err(|error| Failed::bad_use(format!("{error:#}. Run:\n\n    {}\n", advice(true))).into())
 }
 
 /// The command that installs a software driver on this distribution.
@@ -123,10 +100,9 @@ fn advice(has_apt: bool) -> &'static str {
     let other = others
         .iter()
         .find(|(manager, _)| !has_apt && run::succeeds(manager, &["--version"]));
-    other.map_or(
-        "sudo apt-get install libvulkan1 mesa-vulkan-drivers",
-        |(_, command)| command,
-    )
+    other.map_or("sudo apt-get install libvulkan1 mesa-vulkan-drivers", |(_, command)| {
+        command
+    })
 }
 
 fn is_root() -> bool {
@@ -142,13 +118,9 @@ fn effective_user(status: &str) -> Option<u32> {
 
 /// A device that a hardware driver can open: DRM render nodes, NVIDIA's, and that of WSL.
 fn has_render_device() -> bool {
-    let render_node =
-        |entry: fs::DirEntry| entry.file_name().to_string_lossy().starts_with("renderD");
-    let dri =
-        fs::read_dir("/dev/dri").is_ok_and(|mut entries| entries.any(|e| e.is_ok_and(render_node)));
-    dri || ["/dev/nvidia0", "/dev/dxg"]
-        .iter()
-        .any(|path| Path::new(path).exists())
+    let render_node = |entry: fs::DirEntry| entry.file_name().to_string_lossy().starts_with("renderD");
+    let dri = fs::read_dir("/dev/dri").is_ok_and(|mut entries| entries.any(|e| e.is_ok_and(render_node)));
+    dri || ["/dev/nvidia0", "/dev/dxg"].iter().any(|path| Path::new(path).exists())
 }
 
 fn is_software(manifest: &Path) -> bool {
@@ -170,9 +142,7 @@ fn library_exists(manifest: &Path) -> bool {
     if !library.contains('/') {
         return true;
     }
-    manifest
-        .parent()
-        .is_some_and(|folder| folder.join(library).exists())
+    manifest.parent().is_some_and(|folder| folder.join(library).exists())
 }
 
 /// The value of `library_path` in a driver manifest (JSON).
@@ -206,10 +176,7 @@ fn manifests() -> Vec<PathBuf> {
         Some((_, list)) => env::split_paths(&list).collect(),
         None => manifest_folders(),
     };
-    places
-        .iter()
-        .flat_map(|place| manifests_at(place))
-        .collect()
+    places.iter().flat_map(|place| manifests_at(place)).collect()
 }
 
 /// The variable that names the only manifests which the loader reads, and its value.
@@ -239,11 +206,7 @@ fn manifest_folders() -> Vec<PathBuf> {
     let added = list("VK_ADD_DRIVER_FILES", "");
     added
         .into_iter()
-        .chain(
-            folders
-                .into_iter()
-                .map(|folder| folder.join("vulkan/icd.d")),
-        )
+        .chain(folders.into_iter().map(|folder| folder.join("vulkan/icd.d")))
         .collect()
 }
 
@@ -274,7 +237,8 @@ mod tests {
 
     #[test]
     fn library_path_is_read_from_a_manifest() {
-        let manifest = "{ \"ICD\": { \"api_version\": \"1.3.230\",\n \"library_path\" : \"/usr/lib/libvulkan_lvp.so\" } }";
+        let manifest =
+            "{ \"ICD\": { \"api_version\": \"1.3.230\",\n \"library_path\" : \"/usr/lib/libvulkan_lvp.so\" } }";
         assert_eq!(library_path(manifest), Some("/usr/lib/libvulkan_lvp.so"));
         assert_eq!(library_path("{}"), None);
         assert_eq!(library_path("{\"library_path\": 3"), None);
@@ -288,12 +252,8 @@ mod tests {
 
     #[test]
     fn software_drivers_are_known_by_name() {
-        assert!(is_software(Path::new(
-            "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json"
-        )));
+        assert!(is_software(Path::new("/usr/share/vulkan/icd.d/lvp_icd.x86_64.json")));
         assert!(is_software(Path::new("vk_swiftshader_icd.json")));
-        assert!(!is_software(Path::new(
-            "/usr/share/vulkan/lvp/intel_icd.x86_64.json"
-        )));
+        assert!(!is_software(Path::new("/usr/share/vulkan/lvp/intel_icd.x86_64.json")));
     }
 }

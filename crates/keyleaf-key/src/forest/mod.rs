@@ -141,7 +141,9 @@ impl<'t> Forest<'t> {
                     0.0
                 },
                 merge: !self.newcomers.contains(leaf)
-                    && leaf.parent().is_some_and(|parent| parent.level >= self.max_level || wish(metric(&parent)) <= 1.0),
+                    && leaf
+                        .parent()
+                        .is_some_and(|parent| parent.level >= self.max_level || wish(metric(&parent)) <= 1.0),
             };
         }
         self.requests.clear();

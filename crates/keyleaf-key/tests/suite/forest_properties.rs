@@ -132,7 +132,10 @@ impl<'t> Starved<'t> {
             let changes = self.forest.update(|node| metric(node) * scale, self.capacity);
             assert_closed(&self.forest);
             assert!(self.forest.leaves.len() <= self.capacity);
-            self.pressure.observe(self.forest.census(changes.leaves_changed(), self.capacity), self.capacity);
+            self.pressure.observe(
+                self.forest.census(changes.leaves_changed(), self.capacity),
+                self.capacity,
+            );
         }
     }
 
@@ -159,7 +162,10 @@ fn starved_a_jump_ends_with_the_pressure_and_the_leaves_of_a_fresh_start() {
         jumped.run(&there, 180);
         assert_eq!(jumped.pressure.steps(), fresh.pressure.steps(), "seed {seed}");
         assert_eq!(leaves(&jumped.forest), leaves(&fresh.forest), "seed {seed}");
-        assert!(jumped.worst_unmet(&there) * jumped.pressure.scale() <= 1.0001, "seed {seed}");
+        assert!(
+            jumped.worst_unmet(&there) * jumped.pressure.scale() <= 1.0001,
+            "seed {seed}"
+        );
     }
 }
 

@@ -1,5 +1,5 @@
 // Turns counts into arguments (Khoury 3.1.3, copy pass), three times a frame, with one invocation: after `decide`, after `apply`,
-// and after `update`, where it also admits wishes and keeps the pressure (DESIGN section 4; twin: keyleaf-key `pressure`).
+// and after `update`, where it also admits wishes and keeps the pressure (ARCHITECTURE section 4; twin: keyleaf-key `pressure`).
 // Only this pass writes the indirect arguments.
 // requires: shared/leaf.wgsl, shared/control.wgsl, shared/frame.wgsl
 

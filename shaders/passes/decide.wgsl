@@ -1,5 +1,5 @@
 // Candidates decide from what all leaves published: which diamonds split, which merge, and whom blocked leaves request to split
-// (DESIGN section 3; twin: keyleaf-key `forest::Forest::decide`). Nothing that another decision reads is written here.
+// (ARCHITECTURE section 3; twin: keyleaf-key `forest::Forest::decide`). Nothing that another decision reads is written here.
 //
 // Departure from the papers, which compare with the level that a neighbour *wishes*: that cracks while the camera moves (measured).
 // Here only leaves that are there count. One look-up a leaf that wants to split (its H-neighbour); whether it is blocked is a flag.

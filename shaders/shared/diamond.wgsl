@@ -1,4 +1,4 @@
-// What bounds ask of a leaf's diamond: the leaf and the node across its hypotenuse (DESIGN section 1). In root space it is an
+// What bounds ask of a leaf's diamond: the leaf and the node across its hypotenuse (ARCHITECTURE section 1). In root space it is an
 // axis-parallel square of side 2^-level, or, on a mesh edge, two halves of one in two roots. Twin: keyleaf-surface `diamond`.
 // requires: shared/place.wgsl
 

@@ -1,4 +1,4 @@
-// Unit normals that are never zero and never NaN (DESIGN section 7), and bits that do not depend on a sign of zero.
+// Unit normals that are never zero and never NaN (ARCHITECTURE section 7), and bits that do not depend on a sign of zero.
 // Twin: keyleaf-surface `direction`.
 
 fn largest_component(v: vec3f) -> f32 {

@@ -1,4 +1,4 @@
-// Parents, children and neighbours of a place, in integers and without loops (DESIGN section 2; twin: keyleaf-key `place`, `neighbour`).
+// Parents, children and neighbours of a place, in integers and without loops (ARCHITECTURE section 2; twin: keyleaf-key `place`, `neighbour`).
 // The papers walk the digits of the key (Khoury algorithm 5); in exact coordinates every neighbour is one step, and only a step
 // out of the root needs the mesh.
 // requires: shared/place.wgsl, shared/topology.wgsl
@@ -86,7 +86,7 @@ fn neighbour_h(p: Place) -> Place {
     return Place(p.face, p.root, origin.x, origin.y, (p.orientation + 2u) & 3u, p.level);
 }
 
-// The node of the parent's level across the leg that a node shares with its parent: C(n) of DESIGN section 3. If it is a leaf,
+// The node of the parent's level across the leg that a node shares with its parent: C(n) of ARCHITECTURE section 3. If it is a leaf,
 // the node is half of a pair, and may not split. Not for roots.
 fn across_outer_leg(p: Place, digit: u32) -> Place {
     let parent = place_parent(p, digit);

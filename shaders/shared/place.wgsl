@@ -1,4 +1,4 @@
-// A leaf's exact place in its root: DESIGN words "leaf space", "root space". All integers, 31 fraction bits, so that nothing
+// A leaf's exact place in its root: ARCHITECTURE section 1 "leaf space", "root space". All integers, 31 fraction bits, so that nothing
 // rounds at any level. `x`, `y` are the root-space coordinates of the leaf's O corner; its unit is ONE >> level.
 
 const ONE: u32 = 0x80000000u;

@@ -9,7 +9,7 @@ struct Stencil {
     weights: vec4f,
 }
 
-// The same for every address of one point (DESIGN section 3, "same bits"): what lies on a mesh edge is made of its two vertices
+// The same for every address of one point (ARCHITECTURE section 3, "same bits"): what lies on a mesh edge is made of its two vertices
 // alone, the smaller index first; on a spoke of the corner and the centre; inside a quad of its corners in order.
 fn polygon_stencil(face: u32, at: FaceCoord) -> Stencil {
     let count = corner_count(face);

@@ -219,7 +219,7 @@ fn arguments_and_constants() {
         assert_eq!(u64::from(constant(&copy, name)) * 4, bytes, "{name}");
         assert_eq!(bytes % 4, 0);
     }
-    assert!(arguments::SIZE >= arguments::DRAW + 20);
+    const { assert!(arguments::SIZE >= arguments::DRAW + 20) };
     assert_eq!(constant(&copy, "GROUP_SIZE"), layout::GROUP_SIZE);
     assert_eq!(constant(&copy, "UPDATE_LEAVES"), layout::UPDATE_LEAVES);
     let update = parse(&["passes/update.wgsl", "shared/balance.wgsl"]);

@@ -101,7 +101,7 @@ const STARVED_QUIET_FRAMES: u32 = 12;
 
 /// Updates for a view until nothing changes, or for as many frames as are given.
 ///
-/// From the roots a settled result takes a pass a level to split and a few for requests, DESIGN section 3; a starved one takes
+/// From the roots a settled result takes a pass a level to split and a few for requests, ARCHITECTURE section 3; a starved one takes
 /// four more for each step of pressure.
 pub fn settle(
     gpu: &Headless,

@@ -1,4 +1,4 @@
-//! The 16 bytes that stand for one node of the quadtree (DESIGN section 2).
+//! The 16 bytes that stand for one node of the quadtree (ARCHITECTURE section 2).
 
 use crate::{MAX_LEVEL, Place};
 use bytemuck::{Pod, Zeroable};

@@ -1,4 +1,4 @@
-//! A key decoded in integers (DESIGN section 2): where a node lies in its root, exactly, at every level.
+//! A key decoded in integers (ARCHITECTURE section 2): where a node lies in its root, exactly, at every level.
 
 use crate::{Key, MAX_LEVEL, ONE};
 use bytemuck::{Pod, Zeroable};
@@ -203,7 +203,7 @@ impl Place {
     /// The triangle that is drawn for this leaf, corners in the order O, R, U of its own or its parent's leaf space.
     ///
     /// `paired` says that the node across the leg that the leaf shares with its parent is a leaf, so that the pair of
-    /// children along that leg is drawn as one triangle, half of the parent (DESIGN section 3, *T-junctions*). The even child
+    /// children along that leg is drawn as one triangle, half of the parent (ARCHITECTURE section 3, *T-junctions*). The even child
     /// then draws for both and the odd one nothing.
     pub fn drawn(self, paired: bool) -> Option<[RootPoint; 3]> {
         let Some((parent, digit)) = self.ascend().filter(|_| paired) else {

@@ -1,4 +1,4 @@
-//! The threshold that rises while a full buffer leaves wishes unmet (DESIGN section 4). Twin: `shaders/passes/copy.wgsl`.
+//! The threshold that rises while a full buffer leaves wishes unmet (ARCHITECTURE section 4). Twin: `shaders/passes/copy.wgsl`.
 
 use crate::forest::{Buckets, bucket};
 

@@ -4,7 +4,7 @@ use crate::{HalfEdge, ONE, RootPoint, Topology};
 
 /// The canonical address of a point: two [`RootPoint`]s are the same point of the surface iff their sites are equal.
 ///
-/// Evaluators choose their operands by it, so that all roots that share a point compute the same bits (DESIGN section 3, *same
+/// Evaluators choose their operands by it, so that all roots that share a point compute the same bits (ARCHITECTURE section 3, *same
 /// bits*), and checks match edges by it. Parameters are in units of 1/[`ONE`] and lie strictly between 0 and [`ONE`].
 ///
 /// ```

@@ -19,7 +19,7 @@
 //!
 //! *Same bits.* A point on a mesh edge or a spoke has several addresses. The shaders first choose their operands by what the point
 //! is – the vertices of the edge in a fixed order, the owner's texture coordinates – and then evaluate one shared expression, so
-//! that all addresses give the same bits (DESIGN section 3).
+//! that all addresses give the same bits (ARCHITECTURE section 3).
 //!
 //! *Origin.* [`Surface::tables`] are made for an origin in object space. Near it, f32 positions are exact to 2⁻²⁴ of the distance
 //! for maps and terrain, whose parameters are subtracted in integers; for meshes to 2⁻²⁴ of the farthest corner of the face.

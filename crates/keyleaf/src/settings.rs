@@ -6,7 +6,7 @@ use keyleaf_key::MAX_LEVEL;
 /// When a leaf is too coarse.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Metric {
-    /// Screen space: no drawn edge of more than so many pixels (DESIGN: `edge`). Measured at the surface's largest stretch and
+    /// Screen space: no drawn edge of more than so many pixels (ARCHITECTURE section 3). Measured at the surface's largest stretch and
     /// face on, so that the mean edge is shorter.
     Edge {
         /// The target, in pixels of the drawn edge (a leaf's is 2^base_grid times it).

@@ -1,4 +1,4 @@
-//! The leaves of all roots and the parallel update that refines them: the CPU twin of the compute passes (DESIGN section 3).
+//! The leaves of all roots and the parallel update that refines them: the CPU twin of the compute passes (ARCHITECTURE section 3).
 //!
 //! # Theory
 //!

@@ -1,4 +1,4 @@
-//! Wishes as numbers: how they are rounded, and which of them fit the buffer (DESIGN section 4).
+//! Wishes as numbers: how they are rounded, and which of them fit the buffer (ARCHITECTURE section 4).
 
 /// Mantissa bits of a wish that are cleared. The GPU keeps flags there, and both twins compare the same rounded value.
 const CLEARED_BITS: u32 = 6;

@@ -1,4 +1,4 @@
-//! The neighbours by the digit rules of DESIGN section 2, on keys: up to one step a level. An independent check of the rules on
+//! The neighbours by the digit rules of ARCHITECTURE section 2, on keys: up to one step a level. An independent check of the rules on
 //! places, and what a reader of the papers knows. Keys are taken as they are made by this crate: well-formed.
 
 use crate::{Key, Topology};

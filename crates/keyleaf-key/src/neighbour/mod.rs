@@ -1,4 +1,4 @@
-//! The neighbours of a node across its three edges, in constant time, also across roots and faces (DESIGN section 2).
+//! The neighbours of a node across its three edges, in constant time, also across roots and faces (ARCHITECTURE section 2).
 //!
 //! All of it follows from the geometry of [`Place`]s. Inside a root the node across a leg has the same O and is turned by a
 //! quarter, the one across the hypotenuse lies at the fourth corner of the diamond, turned by two. Where the edge lies on the

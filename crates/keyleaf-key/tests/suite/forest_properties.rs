@@ -16,7 +16,7 @@ fn leaves(forest: &Forest<'_>) -> BTreeSet<Place> {
     forest.leaves.keys().copied().collect()
 }
 
-/// Passes within which an unstarved forest settles (DESIGN section 3) when priorities fall off smoothly.
+/// Passes within which an unstarved forest settles (ARCHITECTURE section 3) when priorities fall off smoothly.
 fn settling_passes(max_level: u32) -> u32 {
     2 * max_level + 8
 }

@@ -5,7 +5,7 @@ use crate::surfaces;
 use crate::world::{EDGE, World, random_view, settings};
 use crate::{meshes, random::Random};
 use glam::{DVec3, UVec2};
-use keyleaf::key::forest::Violation;
+use keyleaf::key::forest::{Violation, violations};
 use keyleaf::key::neighbour::h;
 use keyleaf::key::{Changes, Forest, Place};
 use keyleaf::layout::{Leaf, state};
@@ -165,6 +165,33 @@ fn the_update_without_neighbour_test_cracks_on_the_gpu() {
             "no {what} among {} findings",
             found.len()
         );
+    }
+}
+
+#[test]
+fn the_update_without_neighbour_test_covers_every_root_once_all_the_same() {
+    let surface = house();
+    for capacity in [3000, 20_000] {
+        let settings = Settings {
+            balance: Balance::Off,
+            capacity,
+            guard_factor: 1.0,
+            ..settings(EDGE)
+        };
+        let mut world = World::new(&surface, settings);
+        let far = View {
+            eye: DVec3::splat(300.0),
+            ..near_view()
+        };
+        for (jump, view) in [near_view(), far, near_view(), far].into_iter().enumerate() {
+            for pass in 0..12 {
+                let found = violations(surface.topology(), world.pass(&view).leaves.iter().map(Leaf::place));
+                let lost = found
+                    .iter()
+                    .find(|v| !matches!(v, Violation::HalfDiamond { .. } | Violation::Unbalanced { .. }));
+                assert_eq!(lost, None, "capacity {capacity}, jump {jump}, pass {pass}");
+            }
+        }
     }
 }
 

@@ -168,33 +168,6 @@ fn the_update_without_neighbour_test_cracks_on_the_gpu() {
     }
 }
 
-#[test]
-fn the_update_without_neighbour_test_covers_every_root_once_all_the_same() {
-    let surface = house();
-    for capacity in [3000, 20_000] {
-        let settings = Settings {
-            balance: Balance::Off,
-            capacity,
-            guard_factor: 1.0,
-            ..settings(EDGE)
-        };
-        let mut world = World::new(&surface, settings);
-        let far = View {
-            eye: DVec3::splat(300.0),
-            ..near_view()
-        };
-        for (jump, view) in [near_view(), far, near_view(), far].into_iter().enumerate() {
-            for pass in 0..12 {
-                let found = violations(surface.topology(), world.pass(&view).leaves.iter().map(Leaf::place));
-                let lost = found
-                    .iter()
-                    .find(|v| !matches!(v, Violation::HalfDiamond { .. } | Violation::Unbalanced { .. }));
-                assert_eq!(lost, None, "capacity {capacity}, jump {jump}, pass {pass}");
-            }
-        }
-    }
-}
-
 /// Decides by random wishes on leaf sets that the GPU held, with a fault. Returns whether leaves or triangles are found wrong.
 fn is_caught(fault: impl Fn(&Forest<'_>, &mut Changes)) -> bool {
     let surface = house();

@@ -284,8 +284,11 @@ mod tests {
         let frame = Frame::new(&v, &object, origin, &Settings::default());
         let mut inside_seen = 0;
         for i in 0..4000u32 {
-            let r =
-                |k: u32| f64::from((i * 7919 + k).wrapping_mul(2654435761) >> 8) / f64::from(1u32 << 24) * 16.0 - 8.0;
+            let r = |k: u32| {
+                let mixed = (3 * i + k).wrapping_mul(2_654_435_761);
+                let mixed = (mixed ^ (mixed >> 15)).wrapping_mul(0x85eb_ca6b);
+                f64::from(mixed >> 8) / f64::from(1u32 << 24) * 16.0 - 8.0
+            };
             let p = DVec3::new(r(1), r(2), r(3));
             let relative = p.as_vec3() - frame.eye;
             let seen = frame.view_from_object * relative.extend(0.0);

@@ -53,6 +53,7 @@ impl Folder {
         Command::new(env!("CARGO_BIN_EXE_keyleaf"))
             .args(arguments.split_whitespace())
             .current_dir(&self.0)
+            .env("XDG_RUNTIME_DIR", &self.0) // without one, a display library on the way to the driver prints an error of its own
             .envs(environment.iter().copied())
             .output()
             .unwrap()

@@ -5,7 +5,7 @@ use crate::surfaces;
 use crate::world::{EDGE, World, random_view, settings};
 use crate::{meshes, random::Random};
 use glam::{DVec3, UVec2};
-use keyleaf::key::forest::{Violation, violations};
+use keyleaf::key::forest::Violation;
 use keyleaf::key::neighbour::h;
 use keyleaf::key::{Changes, Forest, Place};
 use keyleaf::layout::{Leaf, state};

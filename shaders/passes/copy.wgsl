@@ -1,4 +1,4 @@
-// Turns counts into arguments (Khoury 3.1.3, copy pass), three times a frame, with one invocation: after `decide`, after `apply`,
+// Turns counts into arguments (Khoury 3.1.3, copy pass), three times a frame, with one invocation: after the decisions, after `apply`,
 // and after `update`, where it also admits wishes and keeps the pressure (ARCHITECTURE section 4; twin: keyleaf-key `pressure`).
 // Only this pass writes the indirect arguments.
 // requires: shared/leaf.wgsl, shared/control.wgsl, shared/frame.wgsl
@@ -8,15 +8,16 @@
 @group(0) @binding(2) var<storage, read_write> arguments: array<u32>;
 
 // Where each dispatch finds its three words. Rust: keyleaf `quadtree::layout`.
-const FOR_DECIDE: u32 = 0u;
-const FOR_CHANGES: u32 = 4u;
-const FOR_MEASURE: u32 = 8u;
-const FOR_COMPACT: u32 = 12u;
-const FOR_CLEAR: u32 = 16u;
-const FOR_ENTER: u32 = 20u;
-const FOR_UPDATE: u32 = 24u;
-const FOR_LEAVES: u32 = 28u; // an invocation a leaf
-const FOR_DRAW: u32 = 32u;   // index count, instance count, first index, base vertex, first instance
+const FOR_SPLITS: u32 = 0u;
+const FOR_MERGES: u32 = 4u;
+const FOR_CHANGES: u32 = 8u;
+const FOR_MEASURE: u32 = 12u;
+const FOR_COMPACT: u32 = 16u;
+const FOR_CLEAR: u32 = 20u;
+const FOR_ENTER: u32 = 24u;
+const FOR_UPDATE: u32 = 28u;
+const FOR_LEAVES: u32 = 32u; // an invocation a leaf
+const FOR_DRAW: u32 = 36u;   // index count, instance count, first index, base vertex, first instance
 
 const GROUP_SIZE: u32 = 64u;
 const UPDATE_LEAVES: u32 = 512u; // that a workgroup of `update` takes
@@ -72,7 +73,8 @@ fn copy_leaves() {
     atomicStore(&control.changes, 0u);
     // Counted by the update that follows. The requests that `decide` raised stay until it has folded them in.
     atomicStore(&control.visible, 0u);
-    atomicStore(&control.candidates, 0u);
+    atomicStore(&control.splitters, 0u);
+    atomicStore(&control.mergers, 0u);
     atomicStore(&control.near, 0u);
     for (var b = 0u; b < BUCKETS; b++) {
         atomicStore(&control.wishes[b], 0u);
@@ -158,8 +160,6 @@ const MIN_PRESSURE: i32 = -128;
 @compute @workgroup_size(1)
 fn copy_counts() {
     let visible = atomicLoad(&control.visible);
-    let candidates = atomicLoad(&control.candidates);
-    groups_for(candidates, GROUP_SIZE, FOR_DECIDE);
     let across = 1u << frame.base_grid;
     arguments[FOR_DRAW] = 3u * across * across;
     arguments[FOR_DRAW + 1u] = visible;
@@ -168,6 +168,9 @@ fn copy_counts() {
     arguments[FOR_DRAW + 4u] = 0u;
     atomicStore(&control.requests, 0u);
     admit();
+    // While nothing is admitted, nobody splits: a full buffer costs no more than one with room.
+    groups_for(select(atomicLoad(&control.splitters), 0u, control.lowest_bucket == BUCKETS), GROUP_SIZE, FOR_SPLITS);
+    groups_for(atomicLoad(&control.mergers), GROUP_SIZE, FOR_MERGES);
     observe_starvation();
     observe_target();
     control.passes += 1u;

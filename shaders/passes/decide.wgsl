@@ -1,4 +1,4 @@
-// Candidates decide from what all leaves published: which diamonds split, which merge, and whom blocked leaves request to split
+// From what all leaves published it is decided which diamonds split, which merge, and whom blocked leaves request to split
 // (ARCHITECTURE section 3; twin: keyleaf-key `forest::Forest::decide`). Nothing that another decision reads is written here.
 //
 // Departure from the papers, which compare with the level that a neighbour *wishes*: that cracks while the camera moves (measured).
@@ -76,45 +76,48 @@ fn decide_split(slot: u32, here: u32, p: Place) {
     }
 }
 
-fn allows_merge(state: u32) -> bool {
-    return (state & MATURE) != 0u && !wants(state);
-}
-
-// The slots of the four children of a node if all are leaves that may go; x = NONE if not.
+// The slots of the four children of a node if all are leaves that may go, and no child of the nodes across its legs is split or is
+// about to be; x = NONE if not. `first`: the slot of child 0.
+//
+// A pair flag tells that the node across that leg is a leaf, so that nothing there needs a look. Where it is not, it is split, by
+// (I2). Look-ups that are likely to object come first, and all are one loop: most leaves that speak for a satisfied parent stay
+// refused for long, because finer leaves lie across a leg.
 fn mergeable_children(q: Place, first: u32) -> vec4u {
     var slots = vec4u(first, NONE, NONE, NONE);
-    if (state_of(first) & MERGE) == 0u || !allows_merge(state_of(first)) {
+    let here = state_of(first);
+    if (here & (MERGE | MATURE)) != (MERGE | MATURE) || wants(here) {
         return vec4u(NONE);
     }
-    for (var digit = 1u; digit < 4u; digit++) {
-        let slot = find_leaf(place_child(q, digit));
-        if slot == NONE || !allows_merge(state_of(slot)) {
+    let across_x = neighbour_x(q);
+    let across_y = neighbour_y(q);
+    var end = 7u;
+    for (var step = select(0u, 2u, (here & PAIR) != 0u); step < end; step++) {
+        var node = across_y; // children 2 and 3
+        var digit = step + 2u;
+        if step >= 5u {
+            node = across_x; // children 0 and 1
+            digit = step - 5u;
+        } else if step >= 2u {
+            node = q; // children 2, 3 and 1
+            digit = select(step, 1u, step == 4u);
+        }
+        let slot = find_leaf(place_child(node, digit));
+        if slot == NONE {
             return vec4u(NONE);
         }
-        slots[digit] = slot;
+        let there = state_of(slot);
+        if wants(there) {
+            return vec4u(NONE);
+        }
+        if step >= 2u && step < 5u {
+            if (there & MATURE) == 0u {
+                return vec4u(NONE);
+            }
+            slots[digit] = slot;
+            end = select(7u, 5u, digit == 2u && (there & PAIR) != 0u || end == 5u);
+        }
     }
     return slots;
-}
-
-// No child of the neighbour m, along the leg that it shares with a node about to become a leaf, is split or is about to be.
-fn leg_allows_merge(m: Place, digits: vec2u) -> bool {
-    let a = find_leaf(place_child(m, digits.x));
-    let b = find_leaf(place_child(m, digits.y));
-    if a != NONE && b != NONE {
-        return !wants(state_of(a)) && !wants(state_of(b));
-    }
-    if a == NONE && b == NONE {
-        // Both are split, or m is a leaf, or m's parent is.
-        if find_leaf(m) != NONE {
-            return true;
-        }
-        return m.level > 0u && find_leaf(place_parent(m, place_digit(m))) != NONE;
-    }
-    return false;
-}
-
-fn legs_allow_merge(q: Place) -> bool {
-    return leg_allows_merge(neighbour_x(q), vec2u(0u, 1u)) && leg_allows_merge(neighbour_y(q), vec2u(2u, 3u));
 }
 
 fn decide_merge(slot: u32, p: Place) {
@@ -132,13 +135,11 @@ fn decide_merge(slot: u32, p: Place) {
         return;
     }
     if h.face == NONE {
-        if legs_allow_merge(q) {
-            record(atomicAdd(&control.changes, 1u), children);
-        }
+        record(atomicAdd(&control.changes, 1u), children);
         return;
     }
     let others = mergeable_children(h, other);
-    if others.x != NONE && legs_allow_merge(q) && legs_allow_merge(h) {
+    if others.x != NONE {
         let index = atomicAdd(&control.changes, 2u);
         record(index, children);
         record(index + 1u, others);
@@ -146,17 +147,23 @@ fn decide_merge(slot: u32, p: Place) {
 }
 
 @compute @workgroup_size(64)
-fn decide(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+fn decide_splits(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let index = (group.x + group.y * groups.x) * 64u + lane;
-    if index >= atomicLoad(&control.candidates) {
+    if index >= atomicLoad(&control.splitters) {
         return;
     }
     let slot = lists[frame.capacity + index];
     let here = state_of(slot);
-    let p = leaf_place(leaves[slot]);
-    if wants(here) {
-        decide_split(slot, here, p);
-    } else if (here & MERGE) != 0u {
-        decide_merge(slot, p);
+    if wants(here) { // else it waits for admission
+        decide_split(slot, here, leaf_place(leaves[slot]));
+    }
+}
+
+@compute @workgroup_size(64)
+fn decide_merges(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    let index = (group.x + group.y * groups.x) * 64u + lane;
+    if index < atomicLoad(&control.mergers) {
+        let slot = lists[3u * frame.capacity + index];
+        decide_merge(slot, leaf_place(leaves[slot]));
     }
 }

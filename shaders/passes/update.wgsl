@@ -2,7 +2,7 @@
 //
 // Departure: the papers' pass copies every key from a read to a write list. Here a leaf keeps its slot, and what the surface said
 // of it stays cached (`Measure`), so that a leaf that neither splits nor merges costs one distance, the frustum planes and two
-// words written; nothing is evaluated, decoded or looked up. Decisions follow in `decide`, from what all have published.
+// words written; nothing is evaluated, decoded or looked up. Decisions follow in `decide.wgsl`, from what all have published.
 //
 // An invocation takes LEAVES_PER_INVOCATION leaves, so that barriers and the two global atomics serve 512 leaves at once.
 // requires: shared/leaf.wgsl, shared/control.wgsl, shared/frame.wgsl
@@ -11,19 +11,24 @@
 @group(0) @binding(1) var<storage, read> measures: array<Measure>;
 @group(0) @binding(2) var<storage, read> parents: array<vec4f>; // centre and guard radius of the parent of an even child
 @group(0) @binding(3) var<storage, read_write> state: array<u32>; // states, then requests
-@group(0) @binding(4) var<storage, read_write> lists: array<u32>; // visible, candidates, changes, freed
+@group(0) @binding(4) var<storage, read_write> lists: array<u32>; // visible, splitters, changes, freed; mergers where freed were
 @group(0) @binding(5) var<storage, read_write> control: Control;
 
 const GROUP_SIZE: u32 = 64u;
 const LEAVES_PER_INVOCATION: u32 = 8u;
-const NEAR_WISHES: u32 = 32u; // of the histogram: see Control.near
-const HISTOGRAM: u32 = 33u;
 const ONE_STEP_LOWER: f32 = 0.8408964; // 2^(-1/4)
 
-var<workgroup> emitted: atomic<u32>; // visible leaves, and candidates << 16, of the workgroup
-var<workgroup> visible_base: u32;
-var<workgroup> candidate_base: u32;
-var<workgroup> histogram: array<atomic<u32>, 33>;
+// What a leaf emits, in four bits of a word for the eight leaves of an invocation.
+const VISIBLE: u32 = 1u;
+const SPLITTER: u32 = 2u;
+const MERGER: u32 = 4u;
+const NEAR: u32 = 8u; // see Control.near
+const OF_EACH: u32 = 0x11111111u; // times one of these: the bits of all eight
+
+var<workgroup> emitted: atomic<u32>; // leaves of the workgroup: visible, splitters << 10, mergers << 20
+var<workgroup> near: atomic<u32>;
+var<workgroup> bases: vec3u; // where the workgroup's part of each list begins
+var<workgroup> histogram: array<atomic<u32>, 32>;
 
 // Is a ball outside one of six planes? `first`: CULLING or GUARD.
 fn is_outside(first: u32, centre: vec3f, radius: f32) -> bool {
@@ -44,7 +49,6 @@ fn wish(centre: vec3f, size: f32, guard: f32, scale: f32) -> f32 {
     return quantise(select(inside, inside * frame.guard_factor, is_outside(GUARD, centre, guard)));
 }
 
-// Bit 0: visible, bit 1: candidate.
 fn publish(slot: u32, scale: f32, has_requests: bool, counts_near: bool) -> u32 {
     let measure = measures[slot];
     let before = state[slot];
@@ -55,9 +59,6 @@ fn publish(slot: u32, scale: f32, has_requests: bool, counts_near: bool) -> u32 
         wanted = max(wanted, bitcast<f32>(state[frame.capacity + slot]));
         state[frame.capacity + slot] = 0u;
     }
-    if counts_near && wanted <= 1.0 && wanted > ONE_STEP_LOWER {
-        atomicAdd(&histogram[NEAR_WISHES], 1u);
-    }
     let mature = (before & FRESH) == 0u;
     var merges = false;
     if mature && publishes_merge(digit) {
@@ -67,7 +68,6 @@ fn publish(slot: u32, scale: f32, has_requests: bool, counts_near: bool) -> u32 
     state[slot] = state_from_wish(wanted) | (before & (PAIR | (7u << DIGIT_SHIFT)))
         | select(0u, MATURE, mature) | select(0u, MERGE, merges);
 
-    var result = 0u;
     // The odd half of a pair is not drawn: the even one takes its place, and reaches as far as their parent.
     let is_pair = (before & PAIR) != 0u;
     let hidden = is_pair && (digit & 1u) == 1u;
@@ -75,16 +75,18 @@ fn publish(slot: u32, scale: f32, has_requests: bool, counts_near: bool) -> u32 
     if is_pair {
         seen = vec4f(parents[slot].xyz - frame.eye, measure.parent_radius);
     }
-    if !hidden && !is_outside(CULLING, seen.xyz, seen.w) {
-        result = 1u;
-    }
     if wanted > 1.0 {
         atomicAdd(&histogram[wish_bucket(wanted)], 1u);
-        result |= 2u;
-    } else if merges {
-        result |= 2u;
     }
-    return result;
+    return select(0u, VISIBLE, !hidden && !is_outside(CULLING, seen.xyz, seen.w))
+        | select(0u, SPLITTER, wanted > 1.0)
+        | select(0u, MERGER, merges)
+        | select(0u, NEAR, counts_near && wanted <= 1.0 && wanted > ONE_STEP_LOWER);
+}
+
+// At most 512 of each.
+fn unpacked(counts: u32) -> vec3u {
+    return vec3u(counts & 0x3ffu, (counts >> 10u) & 0x3ffu, counts >> 20u);
 }
 
 @compute @workgroup_size(64)
@@ -93,11 +95,12 @@ fn update(
     @builtin(num_workgroups) groups: vec3u,
     @builtin(local_invocation_index) lane: u32,
 ) {
-    if lane < HISTOGRAM {
+    if lane < BUCKETS {
         atomicStore(&histogram[lane], 0u);
     }
     if lane == 0u {
         atomicStore(&emitted, 0u);
+        atomicStore(&near, 0u);
     }
     workgroupBarrier();
 
@@ -110,40 +113,48 @@ fn update(
     for (var i = 0u; i < LEAVES_PER_INVOCATION; i++) {
         let slot = first + i * GROUP_SIZE;
         if slot < leaves {
-            emits |= publish(slot, scale, has_requests, counts_near) << (2u * i);
+            emits |= publish(slot, scale, has_requests, counts_near) << (4u * i);
         }
     }
 
-    let visible = countOneBits(emits & 0x55555555u);
-    let candidates = countOneBits(emits & 0xaaaaaaaau);
-    let before = atomicAdd(&emitted, visible | (candidates << 16u));
+    let counts = vec3u(countOneBits(emits & (OF_EACH * VISIBLE)), countOneBits(emits & (OF_EACH * SPLITTER)),
+        countOneBits(emits & (OF_EACH * MERGER)));
+    let before = unpacked(atomicAdd(&emitted, counts.x | (counts.y << 10u) | (counts.z << 20u)));
+    if counts_near {
+        atomicAdd(&near, countOneBits(emits & (OF_EACH * NEAR)));
+    }
     workgroupBarrier();
     if lane == 0u {
-        let all = atomicLoad(&emitted);
-        visible_base = atomicAdd(&control.visible, all & 0xffffu);
-        candidate_base = atomicAdd(&control.candidates, all >> 16u);
+        let all = unpacked(atomicLoad(&emitted));
+        bases = vec3u(atomicAdd(&control.visible, all.x), frame.capacity + atomicAdd(&control.splitters, all.y),
+            3u * frame.capacity + atomicAdd(&control.mergers, all.z));
+        if counts_near {
+            atomicAdd(&control.near, atomicLoad(&near));
+        }
     }
     if lane < BUCKETS {
         let count = atomicLoad(&histogram[lane]);
         if count != 0u {
             atomicAdd(&control.wishes[lane], count);
         }
-    } else if lane == NEAR_WISHES {
-        atomicAdd(&control.near, atomicLoad(&histogram[NEAR_WISHES]));
     }
     workgroupBarrier();
 
-    var next_visible = visible_base + (before & 0xffffu);
-    var next_candidate = frame.capacity + candidate_base + (before >> 16u);
+    var next = bases + before;
     for (var i = 0u; i < LEAVES_PER_INVOCATION; i++) {
         let slot = first + i * GROUP_SIZE;
-        if ((emits >> (2u * i)) & 1u) != 0u {
-            lists[next_visible] = slot;
-            next_visible += 1u;
+        let emit = emits >> (4u * i);
+        if (emit & VISIBLE) != 0u {
+            lists[next.x] = slot;
+            next.x += 1u;
         }
-        if ((emits >> (2u * i)) & 2u) != 0u {
-            lists[next_candidate] = slot;
-            next_candidate += 1u;
+        if (emit & SPLITTER) != 0u {
+            lists[next.y] = slot;
+            next.y += 1u;
+        }
+        if (emit & MERGER) != 0u {
+            lists[next.z] = slot;
+            next.z += 1u;
         }
     }
 }

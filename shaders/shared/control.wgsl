@@ -4,14 +4,14 @@ struct Control {
     leaves: u32,             // live leaves = slots in use, after compaction
     allocated: atomic<u32>,  // slots in use while changes are applied: leaves + 3 a split half
     visible: atomic<u32>,
-    candidates: atomic<u32>, // leaves that want to split, and leaders that want to merge
+    splitters: atomic<u32>,  // leaves that want to split
     changes: atomic<u32>,    // records: one a half of a diamond
     splits: atomic<u32>,     // halves of diamonds split by the present changes
     merges: atomic<u32>,
     freed: atomic<u32>,
     sources: atomic<u32>,    // of moves
     targets: atomic<u32>,
-    requests: atomic<u32>,   // raised by `decide`, folded in by `update`
+    requests: atomic<u32>,   // raised by `decide_splits`, folded in by `update`
     lowest_bucket: u32,      // admitted; BUCKETS: none
     pressure: i32,           // sixteenths of an octave by which the threshold is raised
     idle: u32,               // passes without a change
@@ -27,6 +27,6 @@ struct Control {
     since_step: u32,         // passes since the pressure changed
     failed: i32,             // pressure at which wishes did not fit in the present view; -1: none
     view_serial: u32,        // of the view that `failed` is of
-    unused: u32,
+    mergers: atomic<u32>,    // leaves that speak for a parent that is satisfied
     wishes: array<atomic<u32>, 32>, // by bucket
 }

@@ -7,11 +7,13 @@ const EMPTY: u32 = 0u;
 const TOMBSTONE: u32 = 0x00ffffffu; // no slot has this number: capacities end at 2^24 - 2
 const SLOT_MASK: u32 = 0x00ffffffu;
 
-// Multiply and xor-shift (the finaliser of MurmurHash3) over the words of a place.
+// Multiply and xor-shift (the finaliser of MurmurHash3) over the words of a place. Coarse places differ in the highest bits of x and
+// y alone, which a multiplication would push out: they are folded down first.
 fn place_hash(p: Place) -> u32 {
-    var h = p.x * 0x9e3779b1u ^ (p.y * 0x85ebca77u + p.level);
-    h = (h ^ (h >> 15u)) * 0x2c1b3c6du + p.face * 0xc2b2ae3du + ((p.root << 2u) | p.orientation);
-    h = (h ^ (h >> 16u)) * 0x85ebca6bu;
+    var h = (p.x ^ (p.x >> 16u)) * 0x9e3779b1u;
+    h = (h ^ (h >> 15u) ^ p.y ^ (p.y >> 16u)) * 0x85ebca77u;
+    h = (h ^ (h >> 16u)) + p.face * 0xc2b2ae3du + ((p.root << 7u) | (p.level << 2u) | p.orientation);
+    h = (h ^ (h >> 15u)) * 0x2c1b3c6du;
     h = (h ^ (h >> 13u)) * 0xc2b2ae35u;
     return h ^ (h >> 16u);
 }

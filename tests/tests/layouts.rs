@@ -67,8 +67,8 @@ fn leaves() {
 #[test]
 fn control() {
     let expected = offsets!(Control:
-        leaves, allocated, visible, candidates, changes, splits, merges, freed, sources, targets, requests, lowest_bucket, pressure,
-        idle, entries_used, rebuilds, unmet, starved, passes, lost, last_splits, last_merges, near, since_step, failed, view_serial, unused, wishes);
+        leaves, allocated, visible, splitters, changes, splits, merges, freed, sources, targets, requests, lowest_bucket, pressure,
+        idle, entries_used, rebuilds, unmet, starved, passes, lost, last_splits, last_merges, near, since_step, failed, view_serial, mergers, wishes);
     assert_members(&["shared/control.wgsl"], "Control", expected, size_of::<Control>());
 }
 
@@ -205,7 +205,8 @@ fn constant(module: &Module, name: &str) -> u32 {
 fn arguments_and_constants() {
     let copy = parse(&["passes/copy.wgsl"]);
     let expected = [
-        ("FOR_DECIDE", arguments::DECIDE),
+        ("FOR_SPLITS", arguments::SPLITS),
+        ("FOR_MERGES", arguments::MERGES),
         ("FOR_CHANGES", arguments::CHANGES),
         ("FOR_MEASURE", arguments::MEASURE),
         ("FOR_COMPACT", arguments::COMPACT),

@@ -7,6 +7,7 @@
 //! | [`twin`], [`metrics`] | the CPU twin of the update, fed with what the GPU published, and the f64 twins of the metrics |
 //! | [`every_pass`], [`checks`] | what must hold of every leaf set, and checks that can fail |
 //! | [`history`], [`starvation`], [`scaling`] | where it settles |
+//! | [`leaf_table`] | how long look-ups are |
 //! | [`culling`], [`watertight`] | what is drawn |
 //! | [`hard_cases`], [`precision`], [`large`] | where numbers get very large, small or many |
 
@@ -24,6 +25,7 @@ mod hard_cases;
 mod history;
 mod large;
 mod layouts;
+mod leaf_table;
 mod metrics;
 mod precision;
 mod scaling;

@@ -2,7 +2,7 @@
 
 use keyleaf::key::forest::{Crack, Violation, cracks, violations};
 use keyleaf::key::{Forest, Place, Published, Topology};
-use keyleaf::layout::{Leaf, state};
+use keyleaf::layout::{Leaf, place_hash, state};
 use keyleaf::read_back::Snapshot;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -112,18 +112,6 @@ fn table_findings(snapshot: &Snapshot, leaves: &[Place]) -> Vec<Finding> {
         });
     }
     found
-}
-
-/// As in `table.wgsl`.
-fn place_hash(p: &Place) -> u32 {
-    let mut h = p.x.wrapping_mul(0x9e37_79b1) ^ p.y.wrapping_mul(0x85eb_ca77).wrapping_add(p.level);
-    h = (h ^ (h >> 15))
-        .wrapping_mul(0x2c1b_3c6d)
-        .wrapping_add(p.face.wrapping_mul(0xc2b2_ae3d))
-        .wrapping_add((p.root << 2) | p.orientation);
-    h = (h ^ (h >> 16)).wrapping_mul(0x85eb_ca6b);
-    h = (h ^ (h >> 13)).wrapping_mul(0xc2b2_ae35);
-    h ^ (h >> 16)
 }
 
 fn drawn_findings(snapshot: &Snapshot, leaves: &[Place]) -> Vec<Finding> {

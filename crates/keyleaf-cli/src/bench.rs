@@ -9,7 +9,7 @@ use anyhow::{Context, ensure};
 use clap::{Args, ValueEnum};
 use glam::UVec2;
 use keyleaf::headless::Headless;
-use keyleaf::{Balance, View, wgpu};
+use keyleaf::{Balance, Phase, View, wgpu};
 use keyleaf_scene::scene::CameraPath;
 use keyleaf_stage::{Canvas, Loaded, Show, Stage, StageLook, view_of};
 use serde::Serialize;
@@ -112,6 +112,16 @@ struct Pass {
     cpu_ms: Spread,
     /// CPU time of recording the commands, a frame.
     record_ms: Spread,
+    /// Milliseconds of its phases, where the device has timestamps.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    phases: Vec<PhaseSpread>,
+}
+
+/// One phase of the update over the frames.
+#[derive(Serialize)]
+struct PhaseSpread {
+    name: &'static str,
+    ms: Spread,
 }
 
 impl Pass {
@@ -125,6 +135,7 @@ impl Pass {
             max_ms: ms.max,
             cpu_ms: Spread::of(parts.iter().map(|p| p.cpu.as_secs_f64() * 1e3)),
             record_ms: Spread::of(parts.iter().map(|p| p.record.as_secs_f64() * 1e3)),
+            phases: Vec::new(),
         }
     }
 }
@@ -284,7 +295,17 @@ fn report(scene: &Path, path: &CameraPath, run: &Run) -> serde_json::Value {
     let of = |value: fn(&TimedFrame) -> f64| Spread::of(frames.iter().map(value));
     let updates: Vec<Part> = frames.iter().map(|f| f.update).collect();
     let draws: Vec<Part> = frames.iter().filter_map(|f| f.draw).collect();
-    let mut passes = vec![Pass::of("update", &updates)];
+    let mut update = Pass::of("update", &updates);
+    let phases: Vec<_> = frames.iter().filter_map(|f| f.phases).collect();
+    if !phases.is_empty() {
+        update.phases = Phase::ALL
+            .map(|phase| PhaseSpread {
+                name: phase.name(),
+                ms: Spread::of(phases.iter().map(|ms| ms[phase as usize])),
+            })
+            .into();
+    }
+    let mut passes = vec![update];
     if !draws.is_empty() {
         passes.push(Pass::of("draw", &draws));
     }
@@ -339,6 +360,12 @@ fn text(scenes: &[serde_json::Value], device: &DeviceReport, out: &Path) -> Stri
                     ms("max_ms"),
                     format!("{:.2}", number(pass.pointer("/cpu_ms/median"))),
                 ]);
+                for phase in pass["phases"].as_array().into_iter().flatten() {
+                    let ms = |key: &str| format!("{:.2}", number(phase["ms"].get(key)));
+                    let name = format!("  {}", phase["name"].as_str().unwrap_or_default());
+                    let figures = ["median", "p95", "p99", "max"].map(ms);
+                    rows.push([vec![String::new(), name, String::new()], figures.into(), vec![String::new()]].concat());
+                }
             }
             ratios += &format!(
                 "\n{name}{label}: {:.3} µs of CPU time a leaf for the update",

@@ -63,7 +63,7 @@ pub fn stage(gpu: &Headless, loaded: &Loaded, look: StageLook) -> Result<Stage, 
 /// Submits one frame of updates and waits for it; the figures of all surfaces after it.
 pub fn update(gpu: &Headless, stage: &mut Stage, view: &View) -> Result<Statistics, KeyleafError> {
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
-    stage.update(&mut encoder, view, |_| None);
+    stage.update(&mut encoder, view);
     gpu.queue.submit([encoder.finish()]);
     wait(gpu)?;
     statistics(stage)

@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3};
 use keyleaf::draw::{ColourTexture, LeafDraw, LeafPipeline, Look, Sky, Target};
 use keyleaf::headless::Headless;
 use keyleaf::shading::{Atmosphere, Channel, Material, Overlay, Shading};
-use keyleaf::{KeyleafError, Kind, Passes, Quadtree, Statistics, View};
+use keyleaf::{KeyleafError, Kind, Passes, Phase, Quadtree, Statistics, View};
 use keyleaf_key::Topology;
 use keyleaf_scene::scene::Effect;
 use keyleaf_surface::CornerAttributes;
@@ -178,15 +178,24 @@ impl Stage {
         self.show
     }
 
-    /// Records the passes that refine every surface for a view. `timestamps(i)` are written around those of surface i.
-    pub fn update<'a>(
+    /// Records the passes that refine every surface for a view.
+    pub fn update(&mut self, encoder: &mut wgpu::CommandEncoder, view: &View) {
+        for object in &mut self.objects {
+            object.quadtree.update(&self.queue, encoder, view);
+        }
+    }
+
+    /// The same with every phase in a compute pass of its own; `timestamps(i, phase)` are written around those of surface i.
+    pub fn update_timed<'a>(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
         view: &View,
-        mut timestamps: impl FnMut(usize) -> Option<wgpu::ComputePassTimestampWrites<'a>>,
+        mut timestamps: impl FnMut(usize, Phase) -> Option<wgpu::ComputePassTimestampWrites<'a>>,
     ) {
         for (i, object) in self.objects.iter_mut().enumerate() {
-            object.quadtree.update_timed(&self.queue, encoder, view, timestamps(i));
+            object
+                .quadtree
+                .update_timed(&self.queue, encoder, view, |phase| timestamps(i, phase));
         }
     }
 

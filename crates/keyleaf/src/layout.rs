@@ -101,8 +101,8 @@ pub struct Control {
     pub allocated: u32,
     /// Leaves that are drawn.
     pub visible: u32,
-    /// Leaves that want to split, and leaders that want to merge.
-    pub candidates: u32,
+    /// Leaves that want to split.
+    pub splitters: u32,
     /// Change records.
     pub changes: u32,
     /// Halves of diamonds split, while changes are applied.
@@ -147,34 +147,36 @@ pub struct Control {
     pub failed: i32,
     /// Of the view that `failed` is of.
     pub view_serial: u32,
-    /// Padding.
-    pub unused: u32,
+    /// Leaves that speak for a parent that is satisfied.
+    pub mergers: u32,
     /// Wishes by bucket.
     pub wishes: [u32; 32],
 }
 
 /// Byte offsets of the indirect arguments in their buffer.
 pub mod arguments {
-    /// Of `decide`.
-    pub const DECIDE: u64 = 0;
+    /// Of `decide_splits`.
+    pub const SPLITS: u64 = 0;
+    /// Of `decide_merges`.
+    pub const MERGES: u64 = 16;
     /// Of `apply` and `flag`: an invocation a change.
-    pub const CHANGES: u64 = 16;
+    pub const CHANGES: u64 = 32;
     /// Of `measure`.
-    pub const MEASURE: u64 = 32;
+    pub const MEASURE: u64 = 48;
     /// Of `match_slots` and `move_leaves`.
-    pub const COMPACT: u64 = 48;
+    pub const COMPACT: u64 = 64;
     /// Of `clear_table`.
-    pub const CLEAR: u64 = 64;
+    pub const CLEAR: u64 = 80;
     /// Of `enter_leaves`.
-    pub const ENTER: u64 = 80;
+    pub const ENTER: u64 = 96;
     /// Of `update`.
-    pub const UPDATE: u64 = 96;
+    pub const UPDATE: u64 = 112;
     /// Of passes with an invocation a leaf.
-    pub const LEAVES: u64 = 112;
+    pub const LEAVES: u64 = 128;
     /// Of the draw.
-    pub const DRAW: u64 = 128;
+    pub const DRAW: u64 = 144;
     /// Of the buffer.
-    pub const SIZE: u64 = 160;
+    pub const SIZE: u64 = 176;
 }
 
 /// Leaves that one workgroup of `update` takes.
@@ -189,6 +191,18 @@ pub const MAX_CAPACITY: u32 = (1 << 24) - 3;
 /// Entries of the table for a capacity: a power of two, at least twice the capacity.
 pub fn table_entries(capacity: u32) -> u32 {
     (2 * capacity).next_power_of_two().max(64)
+}
+
+/// The hash by which the table holds a place. Twin of `place_hash` of `table.wgsl`.
+pub fn place_hash(p: &Place) -> u32 {
+    let mut h = (p.x ^ (p.x >> 16)).wrapping_mul(0x9e37_79b1);
+    h = (h ^ (h >> 15) ^ p.y ^ (p.y >> 16)).wrapping_mul(0x85eb_ca77);
+    h = (h ^ (h >> 16))
+        .wrapping_add(p.face.wrapping_mul(0xc2b2_ae3d))
+        .wrapping_add((p.root << 7) | (p.level << 2) | p.orientation);
+    h = (h ^ (h >> 15)).wrapping_mul(0x2c1b_3c6d);
+    h = (h ^ (h >> 13)).wrapping_mul(0xc2b2_ae35);
+    h ^ (h >> 16)
 }
 
 /// Bytes of each buffer whose size depends on the capacity, with the name that `plan` prints.

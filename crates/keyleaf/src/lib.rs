@@ -71,7 +71,7 @@ pub use grid::BaseGrid;
 pub use keyleaf_key as key;
 pub use keyleaf_surface as surface;
 pub use passes::{Kind, Module, Passes, modules};
-pub use quadtree::Quadtree;
+pub use quadtree::{Phase, Quadtree};
 pub use settings::{Balance, Metric, Settings};
 pub use statistics::Statistics;
 pub use view::{Frame, Projection, View};

@@ -60,7 +60,7 @@ pub fn modules(kind: &Kind) -> Vec<Module> {
     };
     let mut all = vec![
         module("update", &["passes/update.wgsl", speaker], UPDATE, false, &["update"]),
-        module("decide", &[decide], DECIDE, true, &["decide"]),
+        module("decide", &[decide], DECIDE, true, &["decide_splits", "decide_merges"]),
         module("apply", change, APPLY, true, &["apply"]),
         module(
             "measure",

@@ -13,7 +13,8 @@
 //! # Practice: one pass
 //! | dispatch | invocations | does |
 //! |---|---|---|
-//! | `decide` | candidates | what was published → change records, requests |
+//! | `decide_splits` | leaves that want to split | what was published → change records, requests |
+//! | `decide_merges` | leaves with a satisfied parent | what was published → change records |
 //! | `copy_changes` | 1 | arguments |
 //! | `apply` | changes | leaves, table |
 //! | `flag` | changes | pair flags about the changes |
@@ -74,6 +75,37 @@ struct Groups {
     compact: wgpu::BindGroup,
     copy: wgpu::BindGroup,
     rebuild: Option<wgpu::BindGroup>,
+}
+
+/// The parts of a pass, in their order: the rows of the table above.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Phase {
+    /// Splits, merges and requests are decided.
+    Decide,
+    /// They happen: leaves, leaf table, pair flags.
+    Apply,
+    /// The surface is asked about new leaves.
+    Measure,
+    /// Holes are filled; the table is made anew when it is too full.
+    Compact,
+    /// All leaves publish wishes, are culled and listed.
+    Update,
+}
+
+impl Phase {
+    /// All, in their order.
+    pub const ALL: [Self; 5] = [Self::Decide, Self::Apply, Self::Measure, Self::Compact, Self::Update];
+
+    /// The name that reports and labels use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Decide => "decide",
+            Self::Apply => "apply",
+            Self::Measure => "measure",
+            Self::Compact => "compact",
+            Self::Update => "update",
+        }
+    }
 }
 
 impl Quadtree {
@@ -239,17 +271,46 @@ impl Quadtree {
 
     /// Records the passes of a frame for a view: `settings.settle` of them. Nothing is submitted, nothing waits.
     pub fn update(&mut self, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder, view: &View) {
-        self.update_timed(queue, encoder, view, None);
+        self.prepare(queue, view);
+        {
+            let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                label: Some("keyleaf.update"),
+                timestamp_writes: None,
+            });
+            self.measure_if_needed(&mut pass);
+            for _ in 0..self.settings.settle {
+                for phase in Phase::ALL {
+                    self.run(phase, &mut pass);
+                }
+            }
+        }
+        self.reader.record(encoder, &self.buffers.control);
     }
 
-    /// As [`Quadtree::update`], with timestamps written at the begin and end of the compute pass.
-    pub fn update_timed(
+    /// As [`Quadtree::update`], every phase in a compute pass of its own, whose timestamps the caller names.
+    pub fn update_timed<'a>(
         &mut self,
         queue: &wgpu::Queue,
         encoder: &mut wgpu::CommandEncoder,
         view: &View,
-        timestamps: Option<wgpu::ComputePassTimestampWrites<'_>>,
+        mut timestamps: impl FnMut(Phase) -> Option<wgpu::ComputePassTimestampWrites<'a>>,
     ) {
+        self.prepare(queue, view);
+        for _ in 0..self.settings.settle {
+            for phase in Phase::ALL {
+                let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
+                    label: Some(phase.name()),
+                    timestamp_writes: timestamps(phase),
+                });
+                self.measure_if_needed(&mut pass);
+                self.run(phase, &mut pass);
+            }
+        }
+        self.reader.record(encoder, &self.buffers.control);
+    }
+
+    /// What the passes read of a view.
+    fn prepare(&mut self, queue: &wgpu::Queue, view: &View) {
         self.follow(queue, view);
         let mut frame = Frame::new(
             view,
@@ -266,20 +327,6 @@ impl Quadtree {
         if bytes.write(&frame).is_ok() {
             queue.write_buffer(&self.buffers.frame, 0, &bytes.into_inner());
         }
-        {
-            let descriptor = wgpu::ComputePassDescriptor {
-                label: Some("keyleaf.update"),
-                timestamp_writes: timestamps,
-            };
-            let mut pass = encoder.begin_compute_pass(&descriptor);
-            if std::mem::take(&mut self.needs_measure) {
-                self.measure_all(&mut pass);
-            }
-            for _ in 0..self.settings.settle {
-                self.one_pass(&mut pass);
-            }
-        }
-        self.reader.record(encoder, &self.buffers.control);
     }
 
     /// Puts the origin of positions near the eye, on a lattice so coarse that it seldom moves. A function of the view alone: what is
@@ -302,8 +349,11 @@ impl Quadtree {
         }
     }
 
-    /// Table, flags and measures of all leaves.
-    fn measure_all(&self, pass: &mut wgpu::ComputePass<'_>) {
+    /// Table, flags and measures of all leaves, where they are out of date.
+    fn measure_if_needed(&mut self, pass: &mut wgpu::ComputePass<'_>) {
+        if !std::mem::take(&mut self.needs_measure) {
+            return;
+        }
         self.dispatch(pass, "measure", 1, &self.groups.measure, arguments::LEAVES);
         if let Some(rebuild) = &self.groups.rebuild {
             self.dispatch(pass, "rebuild", 0, rebuild, arguments::CLEAR);
@@ -312,23 +362,35 @@ impl Quadtree {
         }
     }
 
-    fn one_pass(&self, pass: &mut wgpu::ComputePass<'_>) {
-        self.dispatch(pass, "decide", 0, &self.groups.decide, arguments::DECIDE);
-        self.dispatch_one(pass, "copy", 0, &self.groups.copy);
-        self.dispatch(pass, "apply", 0, &self.groups.apply, arguments::CHANGES);
-        if self.passes.kind.balance == Balance::Table {
-            self.dispatch(pass, "flag", 0, &self.groups.decide, arguments::CHANGES);
+    fn run(&self, phase: Phase, pass: &mut wgpu::ComputePass<'_>) {
+        let groups = &self.groups;
+        match phase {
+            Phase::Decide => {
+                self.dispatch(pass, "decide", 0, &groups.decide, arguments::SPLITS);
+                self.dispatch(pass, "decide", 1, &groups.decide, arguments::MERGES);
+                self.dispatch_one(pass, "copy", 0, &groups.copy);
+            }
+            Phase::Apply => {
+                self.dispatch(pass, "apply", 0, &groups.apply, arguments::CHANGES);
+                if self.passes.kind.balance == Balance::Table {
+                    self.dispatch(pass, "flag", 0, &groups.decide, arguments::CHANGES);
+                }
+            }
+            Phase::Measure => self.dispatch(pass, "measure", 0, &groups.measure, arguments::MEASURE),
+            Phase::Compact => {
+                self.dispatch_one(pass, "copy", 1, &groups.copy);
+                self.dispatch(pass, "compact", 0, &groups.compact, arguments::COMPACT);
+                self.dispatch(pass, "compact", 1, &groups.compact, arguments::COMPACT);
+                if let Some(rebuild) = &groups.rebuild {
+                    self.dispatch(pass, "rebuild", 0, rebuild, arguments::CLEAR);
+                    self.dispatch(pass, "rebuild", 1, rebuild, arguments::ENTER);
+                }
+            }
+            Phase::Update => {
+                self.dispatch(pass, "update", 0, &groups.update, arguments::UPDATE);
+                self.dispatch_one(pass, "copy", 2, &groups.copy);
+            }
         }
-        self.dispatch(pass, "measure", 0, &self.groups.measure, arguments::MEASURE);
-        self.dispatch_one(pass, "copy", 1, &self.groups.copy);
-        self.dispatch(pass, "compact", 0, &self.groups.compact, arguments::COMPACT);
-        self.dispatch(pass, "compact", 1, &self.groups.compact, arguments::COMPACT);
-        if let Some(rebuild) = &self.groups.rebuild {
-            self.dispatch(pass, "rebuild", 0, rebuild, arguments::CLEAR);
-            self.dispatch(pass, "rebuild", 1, rebuild, arguments::ENTER);
-        }
-        self.dispatch(pass, "update", 0, &self.groups.update, arguments::UPDATE);
-        self.dispatch_one(pass, "copy", 2, &self.groups.copy);
     }
 
     fn bind<'a>(

@@ -13,10 +13,11 @@ use crate::run;
 use crate::table;
 
 /// Scenes of `scenes/`, in the order of the table.
-const SCENES: [&str; 8] = [
+const SCENES: [&str; 9] = [
     "terrain_real",
     "terrain_procedural",
     "fox",
+    "several",
     "mixed",
     "displaced",
     "cube",

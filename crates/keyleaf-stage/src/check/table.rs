@@ -2,24 +2,12 @@
 
 use super::{FindingKind, Findings};
 use keyleaf::key::Place;
-use keyleaf::layout::NO_ENTRY;
+use keyleaf::layout::{NO_ENTRY, place_hash};
 use keyleaf::read_back::Snapshot;
 
 const EMPTY: u32 = 0;
 const SLOT_MASK: u32 = 0x00ff_ffff;
 const TOMBSTONE: u32 = SLOT_MASK;
-
-/// Twin of `place_hash`.
-fn place_hash(p: &Place) -> u32 {
-    let mut h = p.x.wrapping_mul(0x9e37_79b1) ^ p.y.wrapping_mul(0x85eb_ca77).wrapping_add(p.level);
-    h = (h ^ (h >> 15))
-        .wrapping_mul(0x2c1b_3c6d)
-        .wrapping_add(p.face.wrapping_mul(0xc2b2_ae3d))
-        .wrapping_add((p.root << 2) | p.orientation);
-    h = (h ^ (h >> 16)).wrapping_mul(0x85eb_ca6b);
-    h = (h ^ (h >> 13)).wrapping_mul(0xc2b2_ae35);
-    h ^ (h >> 16)
-}
 
 /// Every entry belongs to a leaf, and every leaf is found.
 pub(super) fn check(snapshot: &Snapshot, findings: &mut Findings) {

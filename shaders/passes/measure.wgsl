@@ -24,7 +24,7 @@ fn measure_leaf(slot: u32) {
             node = place_parent(place, digit);
         }
         let bound = surface_bound(node);
-        let size = select(metric_size(bound, node.level), 0.0, node.level >= frame.max_level);
+        let size = select(metric_size(node, bound), 0.0, node.level >= frame.max_level);
         if i == 0u {
             measure.centre = bound.centre;
             measure.radius = bound.radius;

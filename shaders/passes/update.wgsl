@@ -44,7 +44,7 @@ fn is_outside(first: u32, centre: vec3f, radius: f32) -> bool {
 // so that a camera on the surface gets a finite wish.
 fn wish(centre: vec3f, size: f32, guard: f32, scale: f32) -> f32 {
     let there = (frame.world_from_object * vec4f(centre, 0.0)).xyz;
-    let distance = select(max(sqrt(dot(there, there)), frame.near), 1.0, frame.orthographic == 1u);
+    let distance = select(max(sqrt(dot(there, there)), frame.near), 1.0, frame.without_distance == 1u);
     let inside = size * scale / distance;
     return quantise(select(inside, inside * frame.guard_factor, is_outside(GUARD, centre, guard)));
 }

@@ -92,7 +92,7 @@ fn surface_bound(leaf: Place) -> SurfaceBound {
     let smooth_speed = root.position + h.largest * root.normal;
     let ball = smooth_speed * ball_scale(leaf.level);
     let centre = surface_point(leaf.face, diamond_centre(leaf));
-    return SurfaceBound(centre, ball + h.variation + h.jump + surface.margin,
-        smooth_speed * level_scale(leaf.level) + h.typical,
-        2.0 * (ball + h.steepest) + h.jump + guard_margin(leaf.level, surface.margin));
+    let size = smooth_speed * level_scale(leaf.level) + h.typical;
+    return SurfaceBound(centre, ball + h.variation + h.jump + surface.margin, size,
+        2.0 * (ball + h.steepest) + h.jump + guard_margin(leaf.level, surface.margin), size);
 }

@@ -11,13 +11,14 @@ struct Frame {
     planes: array<vec4f, 12>,   // CULLING and GUARD: object space, relative to the eye, inside positive, unit normals; unused: (0, 0, 0, 1)
     wish_scale: f32,            // metric over threshold of size 1 at distance 1
     guard_factor: f32,          // of the wish outside the guard band
-    orthographic: u32,          // 1: the distance does not count
+    without_distance: u32,      // 1: the distance does not count
     max_level: u32,
     capacity: u32,              // slots
     table_mask: u32,            // entries - 1
     target_leaves: u32,         // 0: none
     base_grid: u32,             // k: a leaf is drawn as 4^k triangles
     view_serial: u32,           // another number for another view
+    metric_parameter: f32,      // for metrics that have one
 }
 
 const CULLING: u32 = 0u;

@@ -62,7 +62,7 @@ fn surface_bound(leaf: Place) -> SurfaceBound {
     let reach = map_reach(surface.map) * ball_scale(leaf.level);
     let height = centre.y - surface.shift;
     let vertical = min(max(bounds.y - height, height - bounds.x), bounds.z * reach);
-    return SurfaceBound(centre, sqrt(reach * reach + vertical * vertical) * 1.000001 + margin,
-        map_reach(surface.map) * level_scale(leaf.level) * steepness,
-        2.0 * reach * steepness + guard_margin(leaf.level, margin));
+    let size = map_reach(surface.map) * level_scale(leaf.level) * steepness;
+    return SurfaceBound(centre, sqrt(reach * reach + vertical * vertical) * 1.000001 + margin, size,
+        2.0 * reach * steepness + guard_margin(leaf.level, margin), size);
 }

@@ -13,4 +13,5 @@ struct SurfaceBound {
     radius: f32,   // ball that contains the surface over the diamond: for culling
     size: f32,     // half the length of the drawn hypotenuse, from above; never grows from parent to child: for metrics
     guard: f32,    // ball that contains the guard balls of the children: for the guard band
+    deviation: f32, // distance of the surface from flat triangles of this level, from above; never grows from parent to child
 }

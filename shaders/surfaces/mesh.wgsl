@@ -10,11 +10,12 @@ struct MeshParams {
 @group(1) @binding(0) var<uniform> surface: MeshParams;
 // Positions relative to the origin: of vertices, then of the centres of the faces; then a unit normal a face.
 @group(1) @binding(2) var<storage, read> surface_a: array<vec4f>;
-// A half-edge: its start vertex; the bits of rho, which bounds half the hypotenuse, the median and half the speed of its root.
-@group(1) @binding(3) var<storage, read> surface_b: array<vec2u>;
+// Three words a half-edge: its start vertex; the bits of rho, which bounds half the hypotenuse, the median and half the speed of its
+// root; and of the distance of the quad from flat triangles of level 0.
+@group(1) @binding(3) var<storage, read> surface_b: array<u32>;
 
 fn corner_vertex(half_edge: u32) -> u32 {
-    return surface_b[half_edge].x;
+    return surface_b[3u * half_edge];
 }
 
 fn centre_point(face: u32) -> u32 {
@@ -44,8 +45,11 @@ fn surface_frame(face: u32, at: FaceCoord) -> SurfaceFrame {
 }
 
 fn surface_bound(leaf: Place) -> SurfaceBound {
-    let rho = bitcast<f32>(surface_b[half_edge(leaf.face, leaf.root)].y);
+    let record = 3u * half_edge(leaf.face, leaf.root);
+    let rho = bitcast<f32>(surface_b[record + 1u]);
+    let twist = bitcast<f32>(surface_b[record + 2u]);
     let ball = rho * ball_scale(leaf.level);
-    return SurfaceBound(surface_point(leaf.face, diamond_centre(leaf)), ball + surface.margin, rho * level_scale(leaf.level),
-        2.0 * ball + guard_margin(leaf.level, surface.margin));
+    let scale = level_scale(leaf.level);
+    return SurfaceBound(surface_point(leaf.face, diamond_centre(leaf)), ball + surface.margin, rho * scale,
+        2.0 * ball + guard_margin(leaf.level, surface.margin), twist * scale * scale);
 }

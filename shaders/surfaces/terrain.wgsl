@@ -93,7 +93,7 @@ fn surface_bound(leaf: Place) -> SurfaceBound {
     let vertical = terrain_variation(reach);
     let typical = sqrt(1.0 + surface.typical_slope * surface.typical_slope);
     let steepest = sqrt(1.0 + surface.steepest_slope * surface.steepest_slope);
-    return SurfaceBound(centre, sqrt(reach * reach + vertical * vertical) * 1.000001 + margin,
-        map_reach(surface.map) * level_scale(leaf.level) * typical,
-        2.0 * reach * steepest + guard_margin(leaf.level, margin));
+    let size = map_reach(surface.map) * level_scale(leaf.level) * typical;
+    return SurfaceBound(centre, sqrt(reach * reach + vertical * vertical) * 1.000001 + margin, size,
+        2.0 * reach * steepest + guard_margin(leaf.level, margin), size);
 }

@@ -120,13 +120,14 @@ fn frame() {
         planes,
         wish_scale: 3.0,
         guard_factor: 4.0,
-        orthographic: 5,
+        without_distance: 5,
         max_level: 6,
         capacity: 7,
         table_mask: 8,
         target_leaves: 9,
         base_grid: 10,
         view_serial: 11,
+        metric_parameter: 12.0,
     };
     let f = f32::to_bits;
     let words = [
@@ -139,13 +140,14 @@ fn frame() {
         ("planes", f(500.0)),
         ("wish_scale", f(3.0)),
         ("guard_factor", f(4.0)),
-        ("orthographic", 5),
+        ("without_distance", 5),
         ("max_level", 6),
         ("capacity", 7),
         ("table_mask", 8),
         ("target_leaves", 9),
         ("base_grid", 10),
         ("view_serial", 11),
+        ("metric_parameter", f(12.0)),
     ];
     assert_uniform(&["shared/frame.wgsl"], "Frame", &value, &words);
 }

@@ -11,13 +11,7 @@ use keyleaf::{Metric, Settings, View};
 #[test]
 fn probes_are_hardly_longer_than_those_of_a_random_hash() {
     let surface = surfaces::flat(&meshes::cube());
-    let view = View::look_at(
-        DVec3::new(0.3, 0.9, 3.5),
-        DVec3::ZERO,
-        1.0,
-        0.01,
-        UVec2::new(1280, 720),
-    );
+    let view = View::look_at(DVec3::new(0.3, 0.9, 3.5), DVec3::ZERO, 1.0, 0.01, UVec2::new(1280, 720));
     let capacity = 60_000;
     for pixels in [24.0, 12.0, 6.0] {
         let settings = Settings {

@@ -104,7 +104,7 @@ impl World {
             Metric::Distance { .. } => std::f64::consts::SQRT_2 * (-f64::from(node.level)).exp2(),
         };
         let centre = bound.centre - to_world.inverse().transform_point3(view.eye);
-        let distance = if frame.orthographic == 1 {
+        let distance = if frame.without_distance == 1 {
             1.0
         } else {
             (to_world.matrix3 * centre).length().max(frame.near.into())

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 /// Below this sine the rounding of f32 operands decides the direction of their cross product. As in the WGSL.
-const PARALLEL: f64 = 1e-6;
+pub const PARALLEL: f64 = 1e-6;
 
 /// The direction of a × b, none where they are parallel or zero. Lengths do not matter: both are scaled first.
 pub fn cross_direction(a: DVec3, b: DVec3) -> Option<DVec3> {

@@ -137,10 +137,12 @@ impl SmoothMesh {
         let root = self.polygons.topology.half_edge_index(leaf.face, leaf.root) as usize;
         let smooth_speed = self.polygons.speeds[root] + h.largest * self.normal_speeds[root];
         let ball = smooth_speed * diamond::ball_scale(leaf.level);
+        let size = smooth_speed * diamond::level_scale(leaf.level) + h.typical;
         SurfaceBound {
             centre,
             radius: ball + h.variation + h.jump,
-            size: smooth_speed * diamond::level_scale(leaf.level) + h.typical,
+            size,
+            deviation: size,
             guard: 2.0 * (ball + h.steepest) + h.jump,
         }
     }

@@ -123,7 +123,7 @@ impl SettingError {
     }
 }
 
-/// Why a point (face, u, v) does not exist.
+/// Why a point does not exist.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ParameterError {
     /// There is no such face.
@@ -133,6 +133,30 @@ pub enum ParameterError {
         face: u32,
         /// How many there are.
         faces: u32,
+    },
+    /// Only surfaces with knots have parameters besides those of their faces.
+    #[error("the surface has no parameters of its own; give a face and its parameters")]
+    NoOwnParameters,
+    /// There is no such surface in the model.
+    #[error("there is no surface {surface}: the model has {surfaces} surfaces, counted from 0")]
+    Surface {
+        /// The surface.
+        surface: u32,
+        /// How many there are.
+        surfaces: u32,
+    },
+    /// The parameters lie outside the domain of the surface's knots.
+    #[error("({s}, {t}) is not in surface {surface}: expected {} <= s <= {} and {} <= t <= {}",
+        domain[0][0], domain[0][1], domain[1][0], domain[1][1])]
+    OutsideSurface {
+        /// The surface.
+        surface: u32,
+        /// First parameter.
+        s: f64,
+        /// Second parameter.
+        t: f64,
+        /// Least and greatest of both parameters.
+        domain: [[f64; 2]; 2],
     },
     /// The parameters lie outside the face.
     #[error("({u}, {v}) is not in face {face}: expected {expected}")]

@@ -6,7 +6,8 @@ use crate::map::{MAP_ERROR, Map, MapPosition};
 use crate::quad_coord::{QuadCoord, UNIT};
 use crate::surface::uniform;
 use crate::{
-    HeightMap, HeightMapError, Interpolation, SettingError, Surface, SurfaceBound, SurfaceFrame, SurfaceTables, diamond,
+    HeightMap, HeightMapError, Interpolation, OwnCoord, ParameterError, SettingError, Surface, SurfaceBound,
+    SurfaceFrame, SurfaceTables, diamond,
 };
 use encase::ShaderType;
 use glam::{DVec2, DVec3, UVec2};
@@ -172,12 +173,18 @@ impl Surface for HeightField {
         let height = centre.y - self.settings.offset;
         let vertical = (high - height).max(height - low).min(slope * reach);
         let steepness = 1f64.hypot(slope);
+        let size = self.map.reach() * diamond::level_scale(leaf.level) * steepness;
         SurfaceBound {
             centre,
             radius: reach.hypot(vertical),
-            size: self.map.reach() * diamond::level_scale(leaf.level) * steepness,
+            size,
             guard: 2.0 * reach * steepness,
+            deviation: size,
         }
+    }
+
+    fn own_coord(&self, surface: u32, s: f64, t: f64) -> Result<OwnCoord, ParameterError> {
+        OwnCoord::of_square(self.topology(), surface, s, t)
     }
 
     fn bounding_box(&self) -> (DVec3, DVec3) {

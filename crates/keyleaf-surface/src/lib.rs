@@ -13,6 +13,7 @@
 //! | [`DisplacedTexture`] | `surfaces/displaced_texture.wgsl` | a mesh moved along its smooth normals by a texture |
 //! | [`DisplacedNoise`] | `surfaces/displaced_noise.wgsl` | the same by fractal noise of the position |
 //! | [`HeightField`] | `surfaces/height_field.wgsl`, `…_bilinear.wgsl` | a height map over a rectangle |
+//! | [`Patches`] | `surfaces/bezier.wgsl`, `surfaces/nurbs*.wgsl` | Bézier and NURBS surfaces, joined where their boundaries meet |
 //! | [`Terrain`] | `surfaces/terrain.wgsl` | a procedural terrain over a fixed square |
 //!
 //! # Practice
@@ -40,6 +41,7 @@ mod interpolation;
 mod map;
 mod mesh;
 mod noise;
+mod patches;
 mod polygon_mesh;
 mod quad_coord;
 mod stencil;
@@ -53,6 +55,10 @@ pub use height_field::{HeightField, HeightFieldSettings};
 pub use height_map::{HeightMap, MAX_MAP_SIDE};
 pub use interpolation::Interpolation;
 pub use mesh::Mesh;
+pub use patches::{
+    BasisMethod, Boundary, JoinReport, NurbsSurface, PatchError, PatchKind, PatchSettings, Patches, Pole, Side,
+    Unjoined,
+};
 pub use polygon_mesh::{CornerAttributes, Faces, PolygonMesh};
-pub use surface::{Surface, SurfaceBound, SurfaceFrame, SurfaceTables, TextureData};
+pub use surface::{OwnCoord, Surface, SurfaceBound, SurfaceFrame, SurfaceTables, TextureData};
 pub use terrain::{Terrain, TerrainSettings};

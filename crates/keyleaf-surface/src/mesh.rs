@@ -1,7 +1,7 @@
 //! Flat meshes. Twin of `shaders/surfaces/mesh.wgsl`.
 
 use crate::direction::{frame_normal, round_up};
-use crate::stencil::{FieldJet, Jet, Operand, root_speeds};
+use crate::stencil::{FieldJet, Jet, Operand, over_edges, root_speeds};
 use crate::surface::uniform;
 use crate::{MeshError, PolygonMesh, Surface, SurfaceBound, SurfaceFrame, SurfaceTables, diamond};
 use encase::ShaderType;
@@ -128,10 +128,12 @@ pub fn unit_or_up(v: DVec3) -> DVec3 {
 /// A triangle's normal is its own, a quad's that of the bilinear patch, a fan's that of each of its triangles. Where there is none
 /// (faces without area), the mean normal of the face or, last, (0, 1, 0).
 ///
-/// GPU memory: 16 bytes a vertex, 32 a face, 8 a corner.
+/// GPU memory: 16 bytes a vertex, 32 a face, 12 a corner.
 #[derive(Clone, Debug)]
 pub struct Mesh {
     polygons: Polygons,
+    /// A quarter of the mixed derivative of each root, which bounds how far a quad is from flat triangles of level 0.
+    twists: Vec<f64>,
 }
 
 #[derive(ShaderType)]
@@ -147,9 +149,28 @@ impl Mesh {
     /// # Errors
     /// [`MeshError`] if the faces are no surface or a position is not finite.
     pub fn new(mesh: &PolygonMesh) -> Result<Self, MeshError> {
-        Ok(Self {
-            polygons: Polygons::new(mesh)?,
-        })
+        let polygons = Polygons::new(mesh)?;
+        let topology = &polygons.topology;
+        let twist = |root: Place| {
+            let centre = RootPoint {
+                face: root.face,
+                root: root.root,
+                x: 0,
+                y: 0,
+            };
+            match topology.corner_count(root.face) {
+                4 => {
+                    Jet::of(topology, centre)
+                        .field(|operand| polygons.position(operand))
+                        .duv
+                        .length()
+                        / 4.0
+                }
+                _ => 0.0,
+            }
+        };
+        let twists = over_edges(topology, &topology.roots().map(twist).collect::<Vec<_>>());
+        Ok(Self { polygons, twists })
     }
 
     fn jet(&self, at: RootPoint) -> FieldJet {
@@ -184,13 +205,15 @@ impl Surface for Mesh {
     }
 
     fn bound(&self, leaf: &Place) -> SurfaceBound {
-        let speed = self.polygons.speeds[self.topology().half_edge_index(leaf.face, leaf.root) as usize];
+        let root = self.topology().half_edge_index(leaf.face, leaf.root) as usize;
+        let speed = self.polygons.speeds[root];
         let radius = speed * diamond::ball_scale(leaf.level);
         SurfaceBound {
             centre: self.point(diamond::centre(leaf)),
             radius,
             size: speed * diamond::level_scale(leaf.level),
             guard: 2.0 * radius,
+            deviation: self.twists[root] * diamond::level_scale(leaf.level).powi(2),
         }
     }
 
@@ -209,7 +232,7 @@ impl Surface for Mesh {
             faces: polygons.topology.face_count(),
             margin: round_up(POSITION_ERROR * polygons.largest(origin)),
         };
-        let half_edges = polygons.vertices.iter().zip(&polygons.speeds);
+        let half_edges = polygons.vertices.iter().zip(polygons.speeds.iter().zip(&self.twists));
         SurfaceTables {
             params: uniform(&params),
             a: polygons
@@ -217,10 +240,38 @@ impl Surface for Mesh {
                 .chain(polygons.face_normal_table())
                 .collect(),
             b: half_edges
-                .flat_map(|(&vertex, &speed)| [vertex, round_up(speed).to_bits()])
+                .flat_map(|(&vertex, (&speed, &twist))| [vertex, round_up(speed).to_bits(), round_up(twist).to_bits()])
                 .collect(),
             heights: None,
             height_bounds: None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::CornerAttributes;
+    use keyleaf_key::ONE;
+
+    #[test]
+    fn the_deviation_bounds_flat_triangles_over_a_twisted_quad_and_is_zero_over_flat_faces() {
+        let position = |k: u32| DVec3::new(f64::from(k % 3), f64::from(k / 3), if k == 4 { 1.0 } else { 0.0 });
+        let mesh = PolygonMesh {
+            positions: (0..6).map(position).chain([DVec3::new(3.0, 0.5, 0.0)]).collect(),
+            faces: [&[0, 1, 4, 3][..], &[1, 2, 5, 4], &[2, 6, 5]].into_iter().collect(),
+            corners: CornerAttributes::default(),
+        };
+        let mesh = Mesh::new(&mesh).expect("a surface");
+        let mut largest: f64 = 0.0;
+        for root in mesh.topology().roots().take(8) {
+            let [origin, right, _] = root.corners().map(|at| mesh.point(at));
+            let off = mesh.point(root.at(ONE / 2, 0)).distance((origin + right) / 2.0);
+            largest = largest.max(off / mesh.bound(&root).deviation);
+            let child = root.child(1);
+            assert_eq!(mesh.bound(&child).deviation, mesh.bound(&root).deviation / 4.0);
+        }
+        assert!(largest > 0.1 && largest <= 1.0, "{largest}");
+        assert_eq!(mesh.bound(&Place::of_root(2, 0)).deviation, 0.0);
     }
 }

@@ -40,6 +40,50 @@ pub trait Surface: Send + Sync {
     fn face_coord(&self, face: u32, u: f64, v: f64) -> Result<RootPoint, ParameterError> {
         coordinate::root_point(self.topology(), face, u, v)
     }
+
+    /// The point with the parameters (s, t) of one of the surfaces of a model, such as the knots of a NURBS surface, to the nearest
+    /// multiple of 2⁻³¹ of its face. At a knot it belongs to the span on the right; at the end of the domain, to the last.
+    ///
+    /// # Errors
+    /// [`ParameterError`] if the surface has no parameters besides those of its faces, there is no such surface, or (s, t) is NaN or
+    /// outside its domain.
+    fn own_coord(&self, surface: u32, s: f64, t: f64) -> Result<OwnCoord, ParameterError> {
+        let _ = (surface, s, t);
+        Err(ParameterError::NoOwnParameters)
+    }
+}
+
+/// A point that was given by the parameters (s, t) of a surface of a model.
+///
+/// With the frame there, the derivatives are ∂/∂s = `rates[0]` · du and ∂/∂t = `rates[1]` · dv, and the surface's own normal is the
+/// frame's. Where `transposed`, du and dv change places and the surface's own normal is opposite.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OwnCoord {
+    /// The point.
+    pub at: RootPoint,
+    /// How fast the face's parameter that follows s, and the one that follows t, grow with it.
+    pub rates: [f64; 2],
+    /// Whether s is the face's second parameter, and t its first.
+    pub transposed: bool,
+}
+
+impl OwnCoord {
+    /// A point whose parameters are those of its face.
+    pub fn of_face(at: RootPoint) -> Self {
+        Self {
+            at,
+            rates: [1.0; 2],
+            transposed: false,
+        }
+    }
+
+    /// The point (s, t) of a surface that is one face over the unit square.
+    pub(crate) fn of_square(topology: &Topology, surface: u32, s: f64, t: f64) -> Result<Self, ParameterError> {
+        if surface != 0 {
+            return Err(ParameterError::Surface { surface, surfaces: 1 });
+        }
+        coordinate::root_point(topology, 0, s, t).map(Self::of_face)
+    }
 }
 
 /// A point with its tangent plane.
@@ -66,6 +110,11 @@ pub struct SurfaceBound {
     pub size: f64,
     /// Radius of a ball about the centre that holds those of the children. For the guard band.
     pub guard: f64,
+    /// Bounds the distance between the surface over the diamond and flat triangles of this level with corners on it.
+    ///
+    /// For [`Mesh`](crate::Mesh) and [`Patches`](crate::Patches) from second derivatives, at most a quarter of the parent's. For other
+    /// surfaces [`size`](Self::size), which bounds how far a point is from the nearest corner.
+    pub deviation: f64,
 }
 
 /// What a surface module reads in group 1: binding 0 `params`, 2 `a`, 3 `b`, 4 `heights`, 5 `height_bounds`. An empty table or

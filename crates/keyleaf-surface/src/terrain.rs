@@ -5,7 +5,7 @@ use crate::map::{Map, MapPosition};
 use crate::noise::{NOISE2_LARGEST, NOISE2_SLOPE, noise2, octave_seed};
 use crate::quad_coord::{QuadCoord, UNIT};
 use crate::surface::uniform;
-use crate::{SettingError, Surface, SurfaceBound, SurfaceFrame, SurfaceTables, diamond};
+use crate::{OwnCoord, ParameterError, SettingError, Surface, SurfaceBound, SurfaceFrame, SurfaceTables, diamond};
 use encase::ShaderType;
 use glam::{DVec2, DVec3};
 use keyleaf_key::{Place, RootPoint, Topology};
@@ -237,12 +237,18 @@ impl Surface for Terrain {
 
     fn bound(&self, leaf: &Place) -> SurfaceBound {
         let reach = self.map.reach() * diamond::ball_scale(leaf.level);
+        let size = self.map.reach() * diamond::level_scale(leaf.level) * 1f64.hypot(self.typical_slope());
         SurfaceBound {
             centre: self.point(diamond::centre(leaf)),
             radius: reach.hypot(self.variation(reach)),
-            size: self.map.reach() * diamond::level_scale(leaf.level) * 1f64.hypot(self.typical_slope()),
+            size,
             guard: 2.0 * reach * 1f64.hypot(self.steepest_slope()),
+            deviation: size,
         }
+    }
+
+    fn own_coord(&self, surface: u32, s: f64, t: f64) -> Result<OwnCoord, ParameterError> {
+        OwnCoord::of_square(self.topology(), surface, s, t)
     }
 
     fn bounding_box(&self) -> (DVec3, DVec3) {

@@ -201,6 +201,7 @@ fn bounds_are_conservative_symmetric_and_nested_in_f32() {
                 (bound.radius, truth.radius),
                 (bound.size, truth.size),
                 (bound.guard, truth.guard),
+                (bound.deviation, truth.deviation),
             ] {
                 assert!(
                     f64::from(gpu) >= truth * (1.0 - 1e-5) - 1e-30,
@@ -222,6 +223,11 @@ fn bounds_are_conservative_symmetric_and_nested_in_f32() {
             for child in &group[2..] {
                 assert!(
                     child.size <= leaf.size * 0.500001,
+                    "{}: {leaf:?} {child:?}",
+                    fixture.name
+                );
+                assert!(
+                    child.deviation <= leaf.deviation * 0.500001,
                     "{}: {leaf:?} {child:?}",
                     fixture.name
                 );

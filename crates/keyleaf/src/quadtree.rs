@@ -200,8 +200,9 @@ impl Quadtree {
         if settings.balance != self.settings.balance {
             return fixed("balance", format!("{:?}", settings.balance));
         }
-        self.needs_measure |=
-            settings.max_level != self.settings.max_level || settings.base_grid != self.settings.base_grid;
+        self.needs_measure |= settings.max_level != self.settings.max_level
+            || settings.base_grid != self.settings.base_grid
+            || settings.metric.parameter() != self.settings.metric.parameter();
         self.settings = settings;
         Ok(())
     }

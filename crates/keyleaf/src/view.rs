@@ -1,6 +1,7 @@
 //! A camera, and what it asks of a quadtree.
 
-use crate::{Metric, Settings};
+use crate::Settings;
+use crate::settings::Scale;
 use encase::ShaderType;
 use glam::{DAffine3, DMat3, DQuat, DVec3, Mat4, UVec2, Vec3, Vec4};
 use keyleaf_key::MAX_LEVEL;
@@ -160,8 +161,8 @@ pub struct Frame {
     pub wish_scale: f32,
     /// Of the wish outside the guard band.
     pub guard_factor: f32,
-    /// 1 or 0.
-    pub orthographic: u32,
+    /// 1 where the distance does not count: orthographic views, metrics without one; else 0.
+    pub without_distance: u32,
     /// Level limit.
     pub max_level: u32,
     /// Slots.
@@ -174,6 +175,8 @@ pub struct Frame {
     pub base_grid: u32,
     /// Another number for another view; the quadtree counts.
     pub view_serial: u32,
+    /// For metrics that have one.
+    pub metric_parameter: f32,
 }
 
 impl Frame {
@@ -207,6 +210,7 @@ impl Frame {
             Projection::Perspective { near, .. } => (near, false),
             Projection::Orthographic { .. } => (1.0, true),
         };
+        let is_absolute = matches!(settings.metric.scale(settings.base_grid), Scale::Absolute(_));
         Self {
             clip_from_view: view.clip_from_view(),
             view_from_object: Mat4::from_mat3(view_from_object.as_mat3()),
@@ -217,31 +221,29 @@ impl Frame {
             planes,
             wish_scale: wish_scale(view, linear, settings) as f32,
             guard_factor: settings.guard_factor,
-            orthographic: orthographic.into(),
+            without_distance: (orthographic || is_absolute).into(),
             max_level: settings.max_level.min(MAX_LEVEL - settings.base_grid),
             capacity: settings.capacity,
             table_mask: crate::layout::table_entries(settings.capacity) - 1,
             target_leaves: settings.target_leaves,
             base_grid: settings.base_grid,
             view_serial: 0,
+            metric_parameter: settings.metric.parameter(),
         }
     }
 }
 
 /// Metric over threshold of an object-space size of 1 at a world distance of 1.
 fn wish_scale(view: &View, linear: DMat3, settings: &Settings) -> f64 {
-    match settings.metric {
-        Metric::Edge { pixels } => {
-            // The size is half a leaf's edge, which is drawn in 2^k pieces.
-            let drawn = 2.0 * largest_stretch(linear) / f64::from(1u32 << settings.base_grid);
-            drawn * view.pixels_per_unit() / f64::from(pixels)
-        }
-        Metric::Distance { factor } => {
+    match settings.metric.scale(settings.base_grid) {
+        Scale::Pixels(pixels) => largest_stretch(linear) * view.pixels_per_unit() / pixels,
+        Scale::Absolute(threshold) => 1.0 / threshold,
+        Scale::Factor(factor) => {
             let half_height = match view.projection {
                 Projection::Perspective { fov_y, .. } => (fov_y / 2.0).tan(),
                 Projection::Orthographic { height, .. } => height / 2.0,
             };
-            f64::from(factor) / half_height
+            factor / half_height
         }
     }
 }

@@ -12,18 +12,7 @@ impl CornerOfVertex {
 
     /// Is this, taken alone, a polygon?
     pub fn check(&mut self, face: u32, corners: &[u32]) -> Result<(), TopologyError> {
-        if corners.len() < 3 {
-            return Err(TopologyError::TooFewCorners {
-                face,
-                corners: corners.len(),
-            });
-        }
-        if corners.len() > MAX_CORNERS {
-            return Err(TopologyError::TooManyCorners {
-                face,
-                corners: corners.len(),
-            });
-        }
+        check_corner_count(face, corners.len())?;
         let vertex_count = self.0.len();
         for (corner, &vertex) in (0..).zip(corners) {
             let Some(last) = self.0.get_mut(vertex as usize) else {
@@ -46,6 +35,15 @@ impl CornerOfVertex {
             }
         }
         Ok(())
+    }
+}
+
+/// Whether a face may have this many corners.
+pub(super) fn check_corner_count(face: u32, corners: usize) -> Result<(), TopologyError> {
+    match corners {
+        0..3 => Err(TopologyError::TooFewCorners { face, corners }),
+        3..=MAX_CORNERS => Ok(()),
+        _ => Err(TopologyError::TooManyCorners { face, corners }),
     }
 }
 

@@ -82,6 +82,30 @@ pub enum TopologyError {
         /// The two faces, the earlier one first.
         faces: [u32; 2],
     },
+    /// A pair names a half-edge that is not there.
+    #[error("a pair names half-edge {root} of face {face}, but there is no such half-edge")]
+    NoSuchHalfEdge {
+        /// The face.
+        face: u32,
+        /// The corner at which the half-edge would start.
+        root: u32,
+    },
+    /// A half-edge is in two pairs.
+    #[error("half-edge {root} of face {face} is in two pairs; it can meet only one other")]
+    PairedTwice {
+        /// The face.
+        face: u32,
+        /// The corner at which the half-edge starts.
+        root: u32,
+    },
+    /// Both halves of a pair are the same half-edge.
+    #[error("half-edge {root} of face {face} is paired with itself")]
+    PairedWithItself {
+        /// The face.
+        face: u32,
+        /// The corner at which the half-edge starts.
+        root: u32,
+    },
 }
 
 /// At most eight faces by number, so that a message stays one line.

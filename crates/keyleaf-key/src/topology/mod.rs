@@ -2,6 +2,7 @@
 
 mod adjacency;
 mod error;
+mod glue;
 
 pub use error::TopologyError;
 
@@ -75,6 +76,52 @@ impl Topology {
         }
         let half_edges = adjacency::half_edges(&face_first);
         let twins = adjacency::twins(&half_edges, &face_first, &vertices)?;
+        let vertex_owners = adjacency::vertex_owners(vertex_count, &half_edges, &vertices);
+        Ok(Self {
+            face_first,
+            vertices,
+            twins,
+            vertex_owners,
+        })
+    }
+
+    /// The adjacency of faces with these numbers of corners whose half-edges meet in `pairs`, for surfaces whose boundaries are
+    /// joined without common vertices. The half-edges of a pair run against each other: the start of one is the end of the other.
+    ///
+    /// Vertices are derived: corners are one vertex when pairs connect them, and vertices are numbered by their first corner. A face
+    /// may meet itself, so that a vertex may be at several of its corners.
+    ///
+    /// ```
+    /// use keyleaf_key::{HalfEdge, Topology, TopologyError};
+    /// let side = |root| HalfEdge { face: 0, root };
+    /// let torus = Topology::glued([4], [[side(0), side(2)], [side(1), side(3)]])?;
+    /// assert_eq!((torus.vertex_count(), torus.twin(0, 3)), (1, Some(side(1))));
+    /// # Ok::<(), TopologyError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`TopologyError`] names the first face whose number of corners is impossible, or the half-edge of the first pair that does not
+    /// exist, is paired with itself, or is in two pairs.
+    pub fn glued(
+        corner_counts: impl IntoIterator<Item = u32>,
+        pairs: impl IntoIterator<Item = [HalfEdge; 2]>,
+    ) -> Result<Self, TopologyError> {
+        let mut face_first = vec![0];
+        let mut half_edge_count = 0;
+        for (face, corners) in (0..NONE).zip(corner_counts) {
+            adjacency::check_corner_count(face, corners as usize)?;
+            half_edge_count += corners as usize;
+            if half_edge_count > MAX_HALF_EDGES {
+                return Err(TopologyError::TooManyHalfEdges { face });
+            }
+            face_first.push(half_edge_count as u32);
+        }
+        if half_edge_count == 0 {
+            return Err(TopologyError::Empty);
+        }
+        let half_edges = adjacency::half_edges(&face_first);
+        let twins = glue::twins(&face_first, pairs)?;
+        let (vertices, vertex_count) = glue::vertices(&half_edges, &face_first, &twins);
         let vertex_owners = adjacency::vertex_owners(vertex_count, &half_edges, &vertices);
         Ok(Self {
             face_first,

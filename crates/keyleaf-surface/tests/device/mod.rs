@@ -27,12 +27,13 @@ pub struct GpuBound {
     pub radius: f32,
     pub size: f32,
     pub guard: f32,
+    pub deviation: f32,
 }
 
 impl GpuBound {
-    pub fn bits(&self) -> [u32; 6] {
+    pub fn bits(&self) -> [u32; 7] {
         let c = self.centre;
-        [c.x, c.y, c.z, self.radius, self.size, self.guard].map(f32::to_bits)
+        [c.x, c.y, c.z, self.radius, self.size, self.guard, self.deviation].map(f32::to_bits)
     }
 }
 
@@ -70,6 +71,7 @@ fn bounds(@builtin(global_invocation_id) id: vec3u) {
     let bound = surface_bound(places[id.x]);
     store(16u * id.x, bound.centre);
     store(16u * id.x + 3u, vec3f(bound.radius, bound.size, bound.guard));
+    results[16u * id.x + 6u] = bound.deviation;
 }
 ";
 
@@ -299,6 +301,7 @@ pub fn evaluate(
         radius: w[3],
         size: w[4],
         guard: w[5],
+        deviation: w[6],
     };
     Evaluated {
         frames: frames.chunks(16).map(frame).collect(),

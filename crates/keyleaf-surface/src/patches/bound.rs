@@ -1,0 +1,83 @@
+//! Bounds of the roots of a KSQuad.
+//!
+//! Hypotenuses of nodes run along u or v and are 2^−level long, so that three numbers a root bound all its diamonds: half the speed
+//! for sizes, the same for balls, and second derivatives for the distance to flat triangles.
+
+use super::bezier_net::{BezierNet, DerivativeBounds};
+use super::evaluation::KsQuad;
+
+/// A KSQuad is bounded in parts, 4^this of them.
+const DEPTH: u32 = 2;
+/// The same where weights change a lot: derivatives of rational patches change most where weights are small.
+const DEPTH_OF_UNEVEN_WEIGHTS: u32 = 3;
+/// The same where they vanish.
+const DEPTH_OF_ZERO_WEIGHTS: u32 = 4;
+/// Weights are uneven when their ratio is greater.
+const UNEVEN: f64 = 4.0;
+
+/// Bounds of a root, for both roots of a mesh edge alike.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RootBound {
+    /// Times 2^−level: half the hypotenuse and the median.
+    pub size: f64,
+    /// Times 2^−level: the surface over the diamond about the middle of the hypotenuse.
+    pub ball: f64,
+    /// Times 4^−level: the distance between the surface and flat triangles as large as the node.
+    pub deviation: f64,
+}
+
+impl RootBound {
+    fn of(bounds: DerivativeBounds) -> Self {
+        let ([u, v], [uu, uv, vv]) = (bounds.first, bounds.second);
+        // |du| + |dv| is at most half the hypotenuse over a diamond, so that the greater speed bounds its ball as well.
+        let half_speed = u.max(v) / 2.0;
+        Self {
+            size: half_speed,
+            ball: half_speed,
+            // Of linear interpolation over a triangle in the unit square.
+            deviation: (uu + 2.0 * uv + vv) / 8.0,
+        }
+    }
+}
+
+/// The bounds of the four roots of a KSQuad, taken alone.
+pub fn of_roots(quad: &KsQuad<'_>) -> [RootBound; 4] {
+    let net = BezierNet::of(quad);
+    let [least, greatest] = net.weights();
+    let depth = if least <= 0.0 {
+        DEPTH_OF_ZERO_WEIGHTS
+    } else if greatest > UNEVEN * least {
+        DEPTH_OF_UNEVEN_WEIGHTS
+    } else {
+        DEPTH
+    };
+    let side = 1u32 << depth;
+    let parts: Vec<DerivativeBounds> = net
+        .parts(depth)
+        .iter()
+        .map(|part| part.bounds(1.0 / f64::from(side)))
+        .collect();
+    let of_root = |root: u32| {
+        let cells = (0..side).flat_map(|j| (0..side).map(move |i| [i, j]));
+        cells
+            .zip(&parts)
+            .filter(|&(cell, _)| overlaps(root, cell, side))
+            .fold(DerivativeBounds::default(), |bounds, (_, &part)| bounds.max(part))
+    };
+    [0, 1, 2, 3].map(|root| RootBound::of(of_root(root)))
+}
+
+/// Whether a cell of the grid has a part inside the quarter of the square at edge `root`.
+fn overlaps(root: u32, [i, j]: [u32; 2], side: u32) -> bool {
+    let last = side - 1;
+    // Turned so that the edge is v = 0.
+    let [i, j] = match root {
+        0 => [i, j],
+        1 => [j, last - i],
+        2 => [last - i, last - j],
+        _ => [last - j, i],
+    };
+    // The lower corners of the cell against the highest point of the triangle over it; `side` is even.
+    let highest = if i < side / 2 { i + 1 } else { side - i };
+    j < highest
+}

@@ -1,0 +1,13 @@
+// The length test (Concheiro 3.2.2): how far the middle of an edge is from its ends.
+// requires: shared/leaf_sample.wgsl
+
+fn half_size(leaf: Place) -> f32 {
+    var size = 0.0;
+    var from = leaf_sample(leaf, corner_quarters(2u));
+    for (var i = 0u; i < 3u; i++) {
+        let to = leaf_sample(leaf, corner_quarters(i));
+        size = max(size, 0.5 * length(to - from));
+        from = to;
+    }
+    return size;
+}

@@ -1,0 +1,201 @@
+// Rational tensor-product patches: Bézier patches, and the knot-span quads (KSQuads) of NURBS surfaces, each a four-cornered face.
+// Twin: keyleaf-surface `patches`. Which basis functions they have is another file: it defines
+// `fn basis(span: u32, degree: u32, f: f32, g: f32) -> Basis`.
+//
+// Departures from Concheiro's thesis, chapter 6: parameters are relative to the knot span and to its length, so that knots 1e-6 apart
+// or far from zero lose no digits; positions are sums of differences to one control point, so that corners and poles are exact also
+// with weights; derivatives come from differences of control points.
+// requires: shared/place.wgsl, shared/surface.wgsl, shared/quad_coord.wgsl, shared/diamond.wgsl, shared/direction.wgsl
+
+struct PatchParams {
+    faces: u32,
+    normals: u32,    // entry of table A with the mean normal of face 0
+    half_edges: u32, // word of table B with the record of half-edge 0
+    spans: u32,      // word of table B with the first knot span
+    margin: f32,     // rounding error of a position, from above
+}
+
+@group(1) @binding(0) var<uniform> surface: PatchParams;
+// Control points relative to the origin, with their weights, surface after surface, u fastest; then a mean normal a face.
+@group(1) @binding(2) var<storage, read> surface_a: array<vec4f>;
+// Four words a face (see `patch_of`), eight words a half-edge, then the knot spans.
+@group(1) @binding(3) var<storage, read> surface_b: array<u32>;
+
+// A half-edge's record: its owner, and whether the edge is one point; the half-edge that starts at the canonical corner of its start;
+// then bounds of the root, see `surface_bound`.
+const HALF_EDGE_WORDS: u32 = 8u;
+const COLLAPSED: u32 = 0x80000000u;
+
+// At most seven: the p + 1 functions that are not zero, and N(k, p-1) / D(k), of which p times the differences of control points make
+// the derivative.
+struct Basis {
+    value: array<f32, 8>,
+    slope: array<f32, 8>,
+}
+
+struct Patch {
+    base: u32, // entry of table A with control point (0, 0)
+    stride: u32,
+    degree: vec2u,
+    spans: vec2u, // words of table B
+}
+
+fn patch_of(face: u32) -> Patch {
+    let packed = surface_b[4u * face + 1u];
+    return Patch(surface_b[4u * face], packed & 0xffffffu, vec2u((packed >> 24u) & 15u, packed >> 28u),
+        vec2u(surface_b[4u * face + 2u], surface_b[4u * face + 3u]));
+}
+
+struct PatchSite {
+    face: u32,
+    at: FaceCoord,
+}
+
+// The address at which a point is evaluated, the same for every address of the point (ARCHITECTURE section 3, "same bits"): that of
+// the owner of the mesh edge, or of the corner where several faces or a whole pole meet.
+fn patch_site(face: u32, at: FaceCoord) -> PatchSite {
+    if at.x + at.y != ONE {
+        return PatchSite(face, at);
+    }
+    let half_edge = 4u * face + at.root;
+    let owner = surface_b[surface.half_edges + HALF_EDGE_WORDS * half_edge];
+    if at.x == ONE || at.y == ONE || (owner & COLLAPSED) != 0u {
+        let start = 4u * face + select(at.root, (at.root + 1u) & 3u, at.y == ONE);
+        let corner = surface_b[surface.half_edges + HALF_EDGE_WORDS * start + 1u];
+        return PatchSite(corner >> 2u, FaceCoord(corner & 3u, ONE, 0u));
+    }
+    if owner == half_edge {
+        return PatchSite(face, at);
+    }
+    return PatchSite(owner >> 2u, FaceCoord(owner & 3u, at.y, at.x));
+}
+
+// Parameters within the knot span, 0..1, and their complements, each rounded once.
+struct PatchCoord {
+    f: vec2f,
+    g: vec2f,
+}
+
+fn patch_coord(at: FaceCoord) -> PatchCoord {
+    let q = quad_coord(at);
+    return PatchCoord(vec2f(parameter(q.u, q.u_is_one), parameter(q.v, q.v_is_one)),
+        vec2f(complement(q.u, q.u_is_one), complement(q.v, q.v_is_one)));
+}
+
+fn patch_position(p: Patch, at: PatchCoord, u: ptr<function, Basis>, v: ptr<function, Basis>) -> vec3f {
+    let nearest = vec2u(at.f * vec2f(p.degree) + 0.5);
+    let reference = surface_a[p.base + nearest.x + nearest.y * p.stride].xyz;
+    var sum = vec4f(0.0);
+    for (var l = 0u; l <= p.degree.y; l++) {
+        var row = vec4f(0.0);
+        for (var k = 0u; k <= p.degree.x; k++) {
+            let point = surface_a[p.base + k + l * p.stride];
+            row += ((*u).value[k] * point.w) * vec4f(point.xyz - reference, 1.0);
+        }
+        sum += (*v).value[l] * row;
+    }
+    // All weights that count are zero only at a corner whose own is.
+    return select(reference, reference + sum.xyz / sum.w, sum.w > 0.0);
+}
+
+struct Tangents {
+    du: vec3f,
+    dv: vec3f,
+    duv: vec3f,
+}
+
+// Derivatives at a position, times the total weight: sums of differences of w (P - position).
+fn patch_tangents(p: Patch, position: vec3f, u: ptr<function, Basis>, v: ptr<function, Basis>) -> Tangents {
+    var t: Tangents;
+    var weight = 0.0;
+    var value_before = vec3f(0.0);
+    var slope_before = vec3f(0.0);
+    for (var l = 0u; l <= p.degree.y; l++) {
+        var value = vec3f(0.0);
+        var slope = vec3f(0.0);
+        var row_weight = 0.0;
+        var before = vec3f(0.0);
+        for (var k = 0u; k <= p.degree.x; k++) {
+            let point = surface_a[p.base + k + l * p.stride];
+            let arm = point.w * (point.xyz - position);
+            value += (*u).value[k] * arm;
+            row_weight += (*u).value[k] * point.w;
+            if k > 0u {
+                slope += (*u).slope[k - 1u] * (arm - before);
+            }
+            before = arm;
+        }
+        weight += (*v).value[l] * row_weight;
+        t.du += (*v).value[l] * slope;
+        if l > 0u {
+            t.dv += (*v).slope[l - 1u] * (value - value_before);
+            t.duv += (*v).slope[l - 1u] * (slope - slope_before);
+        }
+        value_before = value;
+        slope_before = slope;
+    }
+    let per_weight = select(0.0, 1.0 / weight, weight > 0.0);
+    t.du *= f32(p.degree.x) * per_weight;
+    t.dv *= f32(p.degree.y) * per_weight;
+    t.duv *= f32(p.degree.x * p.degree.y) * per_weight;
+    return t;
+}
+
+fn surface_point(face: u32, at: FaceCoord) -> vec3f {
+    let site = patch_site(face, at);
+    let p = patch_of(site.face);
+    let c = patch_coord(site.at);
+    var u = basis(p.spans.x, p.degree.x, c.f.x, c.g.x);
+    var v = basis(p.spans.y, p.degree.y, c.f.y, c.g.y);
+    return positive_zero(patch_position(p, c, &u, &v));
+}
+
+// A tangent below this part of the mixed derivative is zero but for rounding.
+const VANISHING: f32 = 1e-6;
+
+// The direction of du x dv. At an edge that is a point, du grows from zero as duv does, inwards along v, and that is its direction;
+// dv likewise. Zero where there is none.
+fn tangents_normal(t: Tangents, inward: vec2f) -> vec3f {
+    let least = VANISHING * largest_component(t.duv);
+    let vanishes = vec2<bool>(largest_component(t.du) <= least, largest_component(t.dv) <= least);
+    let du = select(t.du, t.duv * inward.y, vanishes.x);
+    let dv = select(t.dv, t.duv * inward.x, vanishes.y);
+    return select(cross_direction(du, dv), vec3f(0.0), all(vanishes));
+}
+
+// How far inside a normal is taken where a patch has none: a part of the way to its centre.
+const STEP_INSIDE: f32 = 0.0009765625;
+
+fn surface_frame(face: u32, at: FaceCoord) -> SurfaceFrame {
+    let p = patch_of(face);
+    let mean = surface_a[surface.normals + face].xyz;
+    var frame = SurfaceFrame(surface_point(face, at), vec3f(0.0), vec3f(0.0), mean);
+    var c = patch_coord(at);
+    for (var attempt = 0u; attempt < 2u; attempt++) {
+        var u = basis(p.spans.x, p.degree.x, c.f.x, c.g.x);
+        var v = basis(p.spans.y, p.degree.y, c.f.y, c.g.y);
+        let t = patch_tangents(p, patch_position(p, c, &u, &v), &u, &v);
+        if attempt == 0u {
+            frame.du = t.du;
+            frame.dv = t.dv;
+        }
+        let normal = tangents_normal(t, vec2f(0.5) - c.f);
+        if any(normal != vec3f(0.0)) {
+            frame.normal = normal;
+            break;
+        }
+        c.f += STEP_INSIDE * (vec2f(0.5) - c.f);
+        c.g = vec2f(1.0) - c.f;
+    }
+    return frame;
+}
+
+fn surface_bound(leaf: Place) -> SurfaceBound {
+    let record = surface.half_edges + HALF_EDGE_WORDS * (4u * leaf.face + leaf.root);
+    let size = bitcast<f32>(surface_b[record + 2u]);
+    let ball = bitcast<f32>(surface_b[record + 3u]) * ball_scale(leaf.level);
+    let deviation = bitcast<f32>(surface_b[record + 4u]);
+    let scale = level_scale(leaf.level);
+    return SurfaceBound(surface_point(leaf.face, diamond_centre(leaf)), ball + surface.margin, size * scale,
+        2.0 * ball + guard_margin(leaf.level, surface.margin), deviation * scale * scale);
+}

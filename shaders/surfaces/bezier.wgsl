@@ -1,0 +1,2 @@
+// Bézier patches, also rational. Twin: keyleaf-surface `patches`.
+// requires: shared/patch.wgsl, shared/basis_bernstein.wgsl

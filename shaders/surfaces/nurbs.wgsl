@@ -1,0 +1,2 @@
+// NURBS surfaces. Twin: keyleaf-surface `patches`.
+// requires: shared/patch.wgsl, shared/basis_triangular.wgsl

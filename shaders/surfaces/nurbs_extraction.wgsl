@@ -1,0 +1,2 @@
+// NURBS surfaces, basis functions by Bézier extraction. Twin: keyleaf-surface `patches`.
+// requires: shared/patch.wgsl, shared/basis_extraction.wgsl

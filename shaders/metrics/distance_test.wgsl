@@ -3,12 +3,12 @@
 
 fn half_size(leaf: Place) -> f32 {
     var size = 0.0;
-    var from = leaf_sample(leaf, corner_quarters(2u));
+    var start = leaf_sample(leaf, corner_quarters(2u));
     for (var i = 0u; i < 3u; i++) {
-        let to = leaf_sample(leaf, corner_quarters(i));
+        let end = leaf_sample(leaf, corner_quarters(i));
         let inserted = leaf_sample(leaf, (corner_quarters(i) + corner_quarters((i + 2u) % 3u)) / 2u);
-        size = max(size, length(inserted - from - 0.5 * (to - from)));
-        from = to;
+        size = max(size, length(inserted - start - 0.5 * (end - start)));
+        start = end;
     }
     return size;
 }

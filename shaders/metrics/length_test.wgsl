@@ -3,11 +3,11 @@
 
 fn half_size(leaf: Place) -> f32 {
     var size = 0.0;
-    var from = leaf_sample(leaf, corner_quarters(2u));
+    var start = leaf_sample(leaf, corner_quarters(2u));
     for (var i = 0u; i < 3u; i++) {
-        let to = leaf_sample(leaf, corner_quarters(i));
-        size = max(size, 0.5 * length(to - from));
-        from = to;
+        let end = leaf_sample(leaf, corner_quarters(i));
+        size = max(size, 0.5 * length(end - start));
+        start = end;
     }
     return size;
 }

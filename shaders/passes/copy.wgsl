@@ -16,8 +16,9 @@ const FOR_COMPACT: u32 = 16u;
 const FOR_CLEAR: u32 = 20u;
 const FOR_ENTER: u32 = 24u;
 const FOR_UPDATE: u32 = 28u;
-const FOR_LEAVES: u32 = 32u; // an invocation a leaf
-const FOR_DRAW: u32 = 36u;   // index count, instance count, first index, base vertex, first instance
+const FOR_UPDATE_REQUESTED: u32 = 32u; // in its place where there are requests
+const FOR_LEAVES: u32 = 36u; // an invocation a leaf
+const FOR_DRAW: u32 = 40u;   // index count, instance count, first index, base vertex, first instance
 
 const GROUP_SIZE: u32 = 64u;
 const UPDATE_LEAVES: u32 = 512u; // that a workgroup of `update` takes
@@ -57,7 +58,9 @@ fn copy_leaves() {
     let leaves = atomicLoad(&control.allocated) - freed;
     control.leaves = leaves;
     groups_for(freed, GROUP_SIZE, FOR_COMPACT);
-    groups_for(leaves, UPDATE_LEAVES, FOR_UPDATE);
+    let has_requests = atomicLoad(&control.requests) != 0u;
+    groups_for(select(leaves, 0u, has_requests), UPDATE_LEAVES, FOR_UPDATE);
+    groups_for(select(0u, leaves, has_requests), UPDATE_LEAVES, FOR_UPDATE_REQUESTED);
     groups_for(leaves, GROUP_SIZE, FOR_LEAVES);
     // Live entries and tombstones above 70 %: start afresh. (Written so that it does not overflow.)
     let entries = frame.table_mask + 1u;

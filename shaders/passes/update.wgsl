@@ -49,39 +49,40 @@ fn wish(centre: vec3f, size: f32, guard: f32, scale: f32) -> f32 {
     return quantise(select(inside, inside * frame.guard_factor, is_outside(GUARD, centre, guard)));
 }
 
-fn publish(slot: u32, scale: f32, has_requests: bool, counts_near: bool) -> u32 {
+// What an update knows before it looks at leaves.
+struct Pass {
+    scale: f32,        // metric over threshold of size 1 at distance 1, under pressure
+    has_requests: bool,
+    counts_near: bool,
+}
+
+fn publish(slot: u32, terms: Pass) -> u32 {
     let measure = measures[slot];
     let before = state[slot];
     let digit = state_digit(before);
     let centre = measure.centre - frame.eye;
-    var wanted = wish(centre, measure.size, measure.guard, scale);
-    if has_requests {
+    var parent = vec4f(0.0);
+    if (digit & 1u) == 0u {
+        parent = parents[slot] - vec4f(frame.eye, 0.0);
+    }
+    var wanted = wish(centre, measure.size, measure.guard, terms.scale);
+    if terms.has_requests {
         wanted = max(wanted, bitcast<f32>(state[frame.capacity + slot]));
         state[frame.capacity + slot] = 0u;
     }
     let mature = (before & FRESH) == 0u;
-    var merges = false;
-    if mature && publishes_merge(digit) {
-        let parent = parents[slot];
-        merges = wish(parent.xyz - frame.eye, measure.parent_size, parent.w, scale) <= 1.0;
-    }
+    let merges = mature && publishes_merge(digit) && wish(parent.xyz, measure.parent_size, parent.w, terms.scale) <= 1.0;
     state[slot] = state_from_wish(wanted) | (before & (PAIR | (7u << DIGIT_SHIFT)))
         | select(0u, MATURE, mature) | select(0u, MERGE, merges);
 
     // The odd half of a pair is not drawn: the even one takes its place, and reaches as far as their parent.
     let is_pair = (before & PAIR) != 0u;
     let hidden = is_pair && (digit & 1u) == 1u;
-    var seen = vec4f(centre, measure.radius);
-    if is_pair {
-        seen = vec4f(parents[slot].xyz - frame.eye, measure.parent_radius);
-    }
-    if wanted > 1.0 {
-        atomicAdd(&histogram[wish_bucket(wanted)], 1u);
-    }
+    let seen = select(vec4f(centre, measure.radius), vec4f(parent.xyz, measure.parent_radius), is_pair);
     return select(0u, VISIBLE, !hidden && !is_outside(CULLING, seen.xyz, seen.w))
         | select(0u, SPLITTER, wanted > 1.0)
         | select(0u, MERGER, merges)
-        | select(0u, NEAR, counts_near && wanted <= 1.0 && wanted > ONE_STEP_LOWER);
+        | select(0u, NEAR, terms.counts_near && wanted <= 1.0 && wanted > ONE_STEP_LOWER);
 }
 
 // At most 512 of each.
@@ -89,12 +90,7 @@ fn unpacked(counts: u32) -> vec3u {
     return vec3u(counts & 0x3ffu, (counts >> 10u) & 0x3ffu, counts >> 20u);
 }
 
-@compute @workgroup_size(64)
-fn update(
-    @builtin(workgroup_id) group: vec3u,
-    @builtin(num_workgroups) groups: vec3u,
-    @builtin(local_invocation_index) lane: u32,
-) {
+fn update_leaves(group: u32, lane: u32, has_requests: bool) {
     if lane < BUCKETS {
         atomicStore(&histogram[lane], 0u);
     }
@@ -104,23 +100,26 @@ fn update(
     }
     workgroupBarrier();
 
-    let first = (group.x + group.y * groups.x) * (GROUP_SIZE * LEAVES_PER_INVOCATION) + lane;
+    let first = group * (GROUP_SIZE * LEAVES_PER_INVOCATION) + lane;
     let leaves = control.leaves;
-    let scale = frame.wish_scale * exp2(f32(-control.pressure) / 16.0);
-    let has_requests = atomicLoad(&control.requests) != 0u;
-    let counts_near = control.pressure > 0;
+    let terms = Pass(frame.wish_scale * exp2(f32(-control.pressure) / 16.0), has_requests, control.pressure > 0);
     var emits = 0u;
     for (var i = 0u; i < LEAVES_PER_INVOCATION; i++) {
         let slot = first + i * GROUP_SIZE;
         if slot < leaves {
-            emits |= publish(slot, scale, has_requests, counts_near) << (4u * i);
+            emits |= publish(slot, terms) << (4u * i);
         }
+    }
+    // Few leaves want to change: loops over those.
+    for (var rest = emits & (OF_EACH * SPLITTER); rest != 0u; rest &= rest - 1u) {
+        let slot = first + (countTrailingZeros(rest) / 4u) * GROUP_SIZE;
+        atomicAdd(&histogram[wish_bucket(state_wish(state[slot]))], 1u);
     }
 
     let counts = vec3u(countOneBits(emits & (OF_EACH * VISIBLE)), countOneBits(emits & (OF_EACH * SPLITTER)),
         countOneBits(emits & (OF_EACH * MERGER)));
     let before = unpacked(atomicAdd(&emitted, counts.x | (counts.y << 10u) | (counts.z << 20u)));
-    if counts_near {
+    if terms.counts_near {
         atomicAdd(&near, countOneBits(emits & (OF_EACH * NEAR)));
     }
     workgroupBarrier();
@@ -128,7 +127,7 @@ fn update(
         let all = unpacked(atomicLoad(&emitted));
         bases = vec3u(atomicAdd(&control.visible, all.x), frame.capacity + atomicAdd(&control.splitters, all.y),
             3u * frame.capacity + atomicAdd(&control.mergers, all.z));
-        if counts_near {
+        if terms.counts_near {
             atomicAdd(&control.near, atomicLoad(&near));
         }
     }
@@ -142,19 +141,26 @@ fn update(
 
     var next = bases + before;
     for (var i = 0u; i < LEAVES_PER_INVOCATION; i++) {
-        let slot = first + i * GROUP_SIZE;
-        let emit = emits >> (4u * i);
-        if (emit & VISIBLE) != 0u {
-            lists[next.x] = slot;
+        if ((emits >> (4u * i)) & VISIBLE) != 0u {
+            lists[next.x] = first + i * GROUP_SIZE;
             next.x += 1u;
         }
-        if (emit & SPLITTER) != 0u {
-            lists[next.y] = slot;
-            next.y += 1u;
-        }
-        if (emit & MERGER) != 0u {
-            lists[next.z] = slot;
-            next.z += 1u;
-        }
     }
+    for (var rest = emits & (OF_EACH * (SPLITTER | MERGER)); rest != 0u; rest &= rest - 1u) {
+        let bit = countTrailingZeros(rest);
+        let is_splitter = (bit & 3u) == 1u;
+        lists[select(next.z, next.y, is_splitter)] = first + (bit / 4u) * GROUP_SIZE;
+        next += select(vec3u(0u, 0u, 1u), vec3u(0u, 1u, 0u), is_splitter);
+    }
+}
+
+@compute @workgroup_size(64)
+fn update(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    update_leaves(group.x + group.y * groups.x, lane, false);
+}
+
+// The same where finer leaves have raised requests.
+@compute @workgroup_size(64)
+fn update_requested(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
+    update_leaves(group.x + group.y * groups.x, lane, true);
 }

@@ -5,15 +5,15 @@
 // Departure: two samples an edge, at its quarters. One in the middle misses an edge that is bent like an S.
 fn half_size(leaf: Place) -> f32 {
     var size = 0.0;
-    var from = leaf_sample(leaf, corner_quarters(2u));
+    var start = leaf_sample(leaf, corner_quarters(2u));
     for (var i = 0u; i < 3u; i++) {
-        let to = leaf_sample(leaf, corner_quarters(i));
+        let end = leaf_sample(leaf, corner_quarters(i));
         for (var side = 1u; side < 4u; side += 2u) {
             let between = (side * corner_quarters(i) + (4u - side) * corner_quarters((i + 2u) % 3u)) / 4u;
             let inserted = leaf_sample(leaf, between);
-            size = max(size, max(flat_size(to - from, inserted - from), flat_size(from - to, inserted - to)));
+            size = max(size, max(flat_size(end - start, inserted - start), flat_size(start - end, inserted - end)));
         }
-        from = to;
+        start = end;
     }
     return size;
 }

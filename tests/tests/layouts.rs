@@ -215,6 +215,7 @@ fn arguments_and_constants() {
         ("FOR_CLEAR", arguments::CLEAR),
         ("FOR_ENTER", arguments::ENTER),
         ("FOR_UPDATE", arguments::UPDATE),
+        ("FOR_UPDATE_REQUESTED", arguments::UPDATE_REQUESTED),
         ("FOR_LEAVES", arguments::LEAVES),
         ("FOR_DRAW", arguments::DRAW),
     ];

@@ -9,7 +9,7 @@ use glam::{DAffine3, DQuat, DVec3, UVec2};
 use keyleaf::key::{Forest, Place};
 use keyleaf::layout::state;
 use keyleaf::surface::{Interpolation, Surface};
-use keyleaf::{Metric, Projection, Settings, View};
+use keyleaf::{Metric, Projection, Settings, Threshold, View};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -143,6 +143,62 @@ fn settled_leaves_differ_from_the_f64_twins_only_where_the_metric_is_at_the_thre
                     "{name}, {}",
                     metric.name()
                 );
+            }
+        }
+    }
+}
+
+/// What samples of an f32 surface can be off by, in units of its largest coordinate.
+const SAMPLE_ERROR: f64 = 32.0 / 16_777_216.0;
+
+#[test]
+fn sampled_metrics_agree_with_their_twins_up_to_the_rounding_of_the_samples() {
+    let metrics = [
+        Metric::Deviation { pixels: 0.5 },
+        Metric::Boundary {
+            pixels: 60.0,
+            boundary_pixels: 15.0,
+        },
+        Metric::LocalArea { pixels: 60.0 },
+        Metric::LinearApproximation { pixels: 0.5 },
+        Metric::DistanceTest(Threshold::Pixels(0.5)),
+        Metric::DistanceTest(Threshold::Units(0.01)),
+        Metric::FlatTest(Threshold::Pixels(0.5)),
+        Metric::FlatTest(Threshold::Units(0.99)),
+        Metric::LengthTest(Threshold::Pixels(30.0)),
+        Metric::LengthTest(Threshold::Units(0.1)),
+    ];
+    for (name, surface) in surfaces::patches() {
+        let (low, high) = surface.bounding_box();
+        let largest = low.abs().max(high.abs()).max_element();
+        for metric in metrics {
+            let mut world = World::new(&surface, settings(metric));
+            for view in views(&mut Random(5), surface.as_ref()) {
+                let snapshot = world.passes(&view, 12);
+                assert_eq!(snapshot.control.lost, 0);
+                let pressure = (-f64::from(snapshot.control.pressure) / 16.0).exp2();
+                for (leaf, word) in snapshot.leaves.iter().zip(&snapshot.states).step_by(7) {
+                    let place = leaf.place();
+                    let truth = world.wish(&view, &place) * pressure;
+                    let published = f64::from(state::wish(*word));
+                    // A request may raise a wish.
+                    let error = (truth - published).max(if published <= 1.0 { published - truth } else { 0.0 });
+                    // The angle of the flat test is off by the rounding of a sample over the length of the edge.
+                    let length = surface.bound(&place).size;
+                    let sample = match metric {
+                        Metric::FlatTest(Threshold::Units(_)) => {
+                            let angle = SAMPLE_ERROR * largest / length;
+                            4.0 * (2.0 * metric.size().of(surface.as_ref(), &place)).sqrt() * angle + angle * angle
+                        }
+                        _ => SAMPLE_ERROR * largest,
+                    };
+                    let room = TOLERANCE * truth + world.wish_of_size(&view, &place, sample) * pressure;
+                    assert!(
+                        error <= room,
+                        "{name}, {}: {published} for {truth} of {place:?}",
+                        metric.name()
+                    );
+                }
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::meshes;
 use crate::random::Random;
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use keyleaf::surface::*;
 use std::sync::Arc;
 
@@ -82,7 +82,7 @@ pub fn terrain() -> Arc<dyn Surface> {
 
 /// (name, surface), one or more for every shader.
 pub fn all() -> Vec<(&'static str, Arc<dyn Surface>)> {
-    vec![
+    let mut all = vec![
         ("cube", flat(&meshes::cube())),
         ("tetrahedron", flat(&meshes::tetrahedron())),
         ("house", flat(&meshes::house())),
@@ -92,5 +92,66 @@ pub fn all() -> Vec<(&'static str, Arc<dyn Surface>)> {
         ("height field", height_field(33, Interpolation::Bicubic)),
         ("bilinear height field", height_field(33, Interpolation::Bilinear)),
         ("terrain", terrain()),
+    ];
+    all.extend(patches());
+    all
+}
+
+fn joined(patches: Vec<NurbsSurface>, kind: PatchKind) -> Arc<dyn Surface> {
+    let settings = PatchSettings {
+        kind,
+        ..PatchSettings::default()
+    };
+    Arc::new(Patches::new(patches, settings).expect("a model"))
+}
+
+/// A rational sphere of radius 1: two poles and a seam.
+pub fn sphere() -> NurbsSurface {
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    let round = [
+        [1, 0],
+        [1, 1],
+        [0, 1],
+        [-1, 1],
+        [-1, 0],
+        [-1, -1],
+        [0, -1],
+        [1, -1],
+        [1, 0],
+    ];
+    let profile = [[0, -1], [1, -1], [1, 0], [1, 1], [0, 1]];
+    let weight = |k: usize| if k % 2 == 1 { half } else { 1.0 };
+    let (mut points, mut weights) = (Vec::new(), Vec::new());
+    for (j, [radius, z]) in profile.into_iter().enumerate() {
+        for (i, [x, y]) in round.into_iter().enumerate() {
+            points.push(DVec3::new(f64::from(x * radius), f64::from(y * radius), f64::from(z)));
+            weights.push(weight(i) * weight(j));
+        }
+    }
+    let u = [0.0, 0.0, 0.0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75, 1.0, 1.0, 1.0];
+    let v = [0.0, 0.0, 0.0, 0.5, 0.5, 1.0, 1.0, 1.0];
+    NurbsSurface::new([2, 2], [u.to_vec(), v.to_vec()], points, weights).expect("a sphere")
+}
+
+/// Two bicubic patches that share a curve, wavy, open.
+fn waves() -> Vec<NurbsSurface> {
+    let mut random = Random(12);
+    let heights: Vec<f64> = (0..28).map(|_| random.unit()).collect();
+    let patch = |first: usize| {
+        let at = |k: usize| {
+            let (i, j) = (first + k % 4, k / 4);
+            DVec3::new(i as f64, heights[i + 7 * j], -(j as f64))
+        };
+        NurbsSurface::bezier([3, 3], (0..16).map(at).collect(), vec![1.0; 16]).expect("a patch")
+    };
+    vec![patch(0), patch(3)]
+}
+
+/// Bézier and NURBS surfaces.
+pub fn patches() -> Vec<(&'static str, Arc<dyn Surface>)> {
+    let nurbs = PatchKind::Nurbs(BasisMethod::Triangular);
+    vec![
+        ("sphere", joined(vec![sphere()], nurbs)),
+        ("waves", joined(waves(), PatchKind::Bezier)),
     ]
 }

@@ -93,16 +93,18 @@ impl World {
     /// The metric over the threshold of a node in f64, with the scale and planes that the GPU got. Twin of `wish` in `update.wgsl`.
     pub fn wish(&self, view: &View, node: &Place) -> f64 {
         let settings = self.quadtree.settings();
-        let to_world = self.quadtree.world_from_object();
-        let frame = Frame::new(view, to_world, DVec3::ZERO, settings);
-        if node.level >= frame.max_level {
+        if node.level >= settings.max_level.min(31 - settings.base_grid) {
             return 0.0;
         }
+        self.wish_of_size(view, node, settings.metric.size().of(self.surface.as_ref(), node))
+    }
+
+    /// The same for a size that the metric did not give.
+    pub fn wish_of_size(&self, view: &View, node: &Place, size: f64) -> f64 {
+        let settings = self.quadtree.settings();
+        let to_world = self.quadtree.world_from_object();
+        let frame = Frame::new(view, to_world, DVec3::ZERO, settings);
         let bound = self.surface.bound(node);
-        let size = match settings.metric {
-            Metric::Edge { .. } => bound.size,
-            Metric::Distance { .. } => std::f64::consts::SQRT_2 * (-f64::from(node.level)).exp2(),
-        };
         let centre = bound.centre - to_world.inverse().transform_point3(view.eye);
         let distance = if frame.without_distance == 1 {
             1.0

@@ -1,9 +1,9 @@
 //! What several commands take, and how it is read.
 
 use anyhow::{Context, bail, ensure};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use glam::{DVec3, UVec2};
-use keyleaf::{Metric, Settings, View};
+use keyleaf::{Metric, Settings, Threshold, View};
 use keyleaf_stage::{LoadOptions, Loaded, load, view_of};
 use std::path::{Path, PathBuf};
 
@@ -25,6 +25,21 @@ pub struct ReadingArguments {
     /// Samples of a raw height map (.r16) that is opened directly; default: a square one
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub raw_size: Option<UVec2>,
+    /// Draw trimmed NURBS surfaces of a file whole, that is opened directly; else they are refused
+    #[arg(long)]
+    pub ignore_trims: bool,
+    /// The axis that is up in a file that is opened directly: with z it is turned by -90 degrees about X
+    #[arg(long, value_name = "AXIS", value_enum, default_value = "y")]
+    pub up: Up,
+}
+
+/// An axis.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq)]
+pub enum Up {
+    /// As keyleaf has it
+    Y,
+    /// As CAD programs have it
+    Z,
 }
 
 /// What replaces the settings of the scene, for all its surfaces.
@@ -33,7 +48,9 @@ pub struct Overrides {
     /// Length of a drawn edge in pixels that leaves are split for; short for --metric edge=P
     #[arg(long, value_name = "P", conflicts_with = "metric", allow_negative_numbers = true)]
     pub pixels: Option<f32>,
-    /// When leaves split: edge=PIXELS, or distance=FACTOR (Khoury 2.1)
+    /// When leaves split: edge=PIXELS, distance=FACTOR (Khoury 2.1), deviation=PIXELS, or a test of Concheiro's thesis:
+    /// boundary=PIXELS,PIXELS (elsewhere, at open boundaries), local-area=PIXELS, linear-approximation=PIXELS, and distance-test,
+    /// flat-test, length-test=VALUE in their own unit, or in pixels as 2px
     #[arg(long, value_name = "METRIC", value_parser = parse_metric)]
     pub metric: Option<Metric>,
     /// Leaves that the buffers of a surface hold
@@ -84,10 +101,12 @@ pub fn load_scene(
 ) -> anyhow::Result<Loaded> {
     let options = LoadOptions {
         raw_size: reading.raw_size.map(|size| size.to_array()),
+        ignore_trims: reading.ignore_trims,
+        z_up: reading.up == Up::Z,
     };
     let mut loaded = load(scene, &options)?;
     if !quiet {
-        loaded.notes.iter().for_each(|note| eprintln!("note: {note}"));
+        loaded.notes.iter().for_each(|note| eprintln!("{note}"));
     }
     for object in &mut loaded.objects {
         overrides.apply(&mut object.settings);
@@ -166,13 +185,41 @@ fn parse_fov(text: &str) -> anyhow::Result<f64> {
     Ok(fov)
 }
 
+const METRICS: &str = "edge=PIXELS, distance=FACTOR, deviation=PIXELS, boundary=PIXELS,PIXELS, local-area=PIXELS, \
+    linear-approximation=PIXELS, distance-test=VALUE, flat-test=VALUE or length-test=VALUE, where VALUE is a number in the unit of \
+    the test, or one of pixels such as 2px";
+
 fn parse_metric(text: &str) -> anyhow::Result<Metric> {
-    let number = |text: &str| text.trim().parse::<f32>().ok().filter(|n| n.is_finite() && *n > 0.0);
-    match text.split_once('=').map(|(name, value)| (name.trim(), number(value))) {
-        Some(("edge", Some(pixels))) => Ok(Metric::Edge { pixels }),
-        Some(("distance", Some(factor))) => Ok(Metric::Distance { factor }),
-        _ => bail!("expected edge=PIXELS or distance=FACTOR, with a positive number"),
-    }
+    let wrong = || format!("expected {METRICS}; numbers are positive");
+    let number = |text: &str| {
+        let number = text.trim().parse::<f32>().ok();
+        number.filter(|n| n.is_finite() && *n > 0.0).with_context(wrong)
+    };
+    let threshold = |text: &str| -> anyhow::Result<Threshold> {
+        match text.trim().strip_suffix("px") {
+            Some(pixels) => Ok(Threshold::Pixels(number(pixels)?)),
+            None => Ok(Threshold::Units(number(text)?)),
+        }
+    };
+    let (name, value) = text.split_once('=').with_context(wrong)?;
+    Ok(match name.trim() {
+        "edge" => Metric::Edge { pixels: number(value)? },
+        "distance" => Metric::Distance { factor: number(value)? },
+        "deviation" => Metric::Deviation { pixels: number(value)? },
+        "boundary" => {
+            let (pixels, boundary) = value.split_once(',').with_context(wrong)?;
+            Metric::Boundary {
+                pixels: number(pixels)?,
+                boundary_pixels: number(boundary)?,
+            }
+        }
+        "local-area" => Metric::LocalArea { pixels: number(value)? },
+        "linear-approximation" => Metric::LinearApproximation { pixels: number(value)? },
+        "distance-test" => Metric::DistanceTest(threshold(value)?),
+        "flat-test" => Metric::FlatTest(threshold(value)?),
+        "length-test" => Metric::LengthTest(threshold(value)?),
+        _ => bail!(wrong()),
+    })
 }
 
 /// A positive number of seconds.
@@ -209,7 +256,29 @@ mod tests {
     fn metrics_have_a_name_and_a_positive_number() {
         assert_eq!(parse_metric("edge=4").unwrap(), Metric::Edge { pixels: 4.0 });
         assert_eq!(parse_metric("distance=0.1").unwrap(), Metric::Distance { factor: 0.1 });
-        for wrong in ["edge", "edge=", "edge=0", "edge=-1", "edge=nan", "length=3"] {
+        let both = Metric::Boundary {
+            pixels: 8.0,
+            boundary_pixels: 2.0,
+        };
+        assert_eq!(parse_metric("boundary=8,2").unwrap(), both);
+        assert_eq!(
+            parse_metric("flat-test=0.99").unwrap(),
+            Metric::FlatTest(Threshold::Units(0.99))
+        );
+        assert_eq!(
+            parse_metric("length-test=4px").unwrap(),
+            Metric::LengthTest(Threshold::Pixels(4.0))
+        );
+        for wrong in [
+            "edge",
+            "edge=",
+            "edge=0",
+            "edge=-1",
+            "edge=nan",
+            "length=3",
+            "boundary=8",
+            "flat-test=px",
+        ] {
             assert!(parse_metric(wrong).is_err(), "{wrong}");
         }
     }

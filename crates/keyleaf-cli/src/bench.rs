@@ -364,7 +364,14 @@ fn text(scenes: &[serde_json::Value], device: &DeviceReport, out: &Path) -> Stri
                     let ms = |key: &str| format!("{:.2}", number(phase["ms"].get(key)));
                     let name = format!("  {}", phase["name"].as_str().unwrap_or_default());
                     let figures = ["median", "p95", "p99", "max"].map(ms);
-                    rows.push([vec![String::new(), name, String::new()], figures.into(), vec![String::new()]].concat());
+                    rows.push(
+                        [
+                            vec![String::new(), name, String::new()],
+                            figures.into(),
+                            vec![String::new()],
+                        ]
+                        .concat(),
+                    );
                 }
             }
             ratios += &format!(

@@ -9,7 +9,7 @@ use clap::{Args, ValueEnum};
 use glam::{DMat3, DVec3};
 use keyleaf::inspect::Inspector;
 use keyleaf::key::RootPoint;
-use keyleaf::surface::SurfaceFrame;
+use keyleaf::surface::{OwnCoord, SurfaceFrame};
 use keyleaf::{Passes, Quadtree, Settings};
 use keyleaf_stage::{Loaded, LoadedObject};
 use std::fmt::Write;
@@ -20,10 +20,11 @@ use std::sync::Arc;
 ///
 /// The header of the table says what a row is: face,u,v (local to a face: quads have their corners 0..3 at (0,0), (1,0), (1,1), (0,1),
 /// triangles at (0,0), (1,0), (0,1); polygons with n > 4 corners have u in 0..n along the boundary and v = 1 at the centre), or
-/// surface,s,t (height maps and procedural terrain: surface 0, the unit square, s east and t north). Other columns are kept.
+/// surface,s,t (the parameters of a NURBS surface by its knots, of a Bézier patch from 0 to 1, both counted from 0 as in the file;
+/// height maps and procedural terrain: surface 0, the unit square, s east and t north). Other columns are kept.
 ///
-/// Appended, in world space: x,y,z, the derivatives du_x,… and dv_x,…, and the unit normal n_x,n_y,n_z, with all digits that tell
-/// the number.
+/// Appended, in world space: x,y,z, the derivatives du_x,… and dv_x,… in the parameters of the row, and the unit normal n_x,n_y,n_z,
+/// with all digits that tell the number.
 #[derive(Args)]
 #[command(after_help = "Examples:
   keyleaf eval scenes/terrain_real.ron --at points.csv -o heights.csv
@@ -82,15 +83,18 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
         None
     };
     for (i, object) in loaded.objects.iter().enumerate() {
-        let wanted = || points.iter().enumerate().filter(|(_, (object, _))| *object == i);
-        let rows: Vec<usize> = wanted().map(|(row, _)| row).collect();
-        let at: Vec<RootPoint> = wanted().map(|(_, (_, point))| *point).collect();
-        let (Some(gpu), false) = (&gpu, at.is_empty()) else {
-            for (row, point) in rows.into_iter().zip(at) {
-                lines[row] = Some(numbers::<f64>(&placed(object, object.surface.frame(point))));
+        let wanted: Vec<(usize, OwnCoord)> = (0..)
+            .zip(&points)
+            .filter_map(|(row, (object, point))| (*object == i).then_some((row, *point)))
+            .collect();
+        let (Some(gpu), false) = (&gpu, wanted.is_empty()) else {
+            for (row, point) in wanted {
+                let frame = in_own_parameters(object.surface.frame(point.at), &point);
+                lines[row] = Some(numbers::<f64>(&placed(object, frame)));
             }
             continue;
         };
+        let at: Vec<RootPoint> = wanted.iter().map(|(_, point)| point.at).collect();
         // A quadtree of the roots alone: it holds the tables of the surface, for the object's own origin.
         let settings = Settings {
             capacity: object.surface.topology().half_edge_count(),
@@ -110,17 +114,15 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
             settings,
         )?;
         let inspector = Inspector::new(&gpu.device, &Quadtree::kind(object.surface.as_ref(), &settings))?;
-        for (row, frame) in rows
-            .into_iter()
-            .zip(inspector.evaluate(&gpu.device, &gpu.queue, &quadtree, &at)?)
-        {
+        let frames = inspector.evaluate(&gpu.device, &gpu.queue, &quadtree, &at)?;
+        for ((row, point), frame) in wanted.iter().zip(frames) {
             let frame = SurfaceFrame {
                 position: frame.position.as_dvec3() + quadtree.origin(),
                 du: frame.du.as_dvec3(),
                 dv: frame.dv.as_dvec3(),
                 normal: frame.normal.as_dvec3(),
             };
-            lines[row] = Some(numbers::<f32>(&placed(object, frame)));
+            lines[*row] = Some(numbers::<f32>(&placed(object, in_own_parameters(frame, point))));
         }
     }
     let mut text = format!("{},{APPENDED}\n", csv.header);
@@ -153,7 +155,7 @@ enum Kind {
 }
 
 /// The object and point of every row.
-fn points(csv: &Csv, loaded: &Loaded, arguments: &Arguments) -> anyhow::Result<Vec<(usize, RootPoint)>> {
+fn points(csv: &Csv, loaded: &Loaded, arguments: &Arguments) -> anyhow::Result<Vec<(usize, OwnCoord)>> {
     let columns = |names: [&'static str; 3]| -> Result<[usize; 3], &'static str> {
         let [a, b, c] = names.map(|name| csv.column(name).ok_or(name));
         Ok([a?, b?, c?])
@@ -213,30 +215,32 @@ fn points(csv: &Csv, loaded: &Loaded, arguments: &Arguments) -> anyhow::Result<V
     csv.rows().map(row).collect()
 }
 
-/// The point of a row.
-fn point(row: &Row<'_>, kind: &Kind, object: &LoadedObject) -> anyhow::Result<RootPoint> {
-    let (face, u, v) = match *kind {
-        Kind::Face([face, u, v]) => (row.index(face)?, row.number(u)?, row.number(v)?),
-        Kind::Surface([surface, s, t]) => {
-            let is_map = ["surfaces/height_field", "surfaces/terrain"]
-                .iter()
-                .any(|f| object.surface.shader().starts_with(f));
-            ensure!(
-                is_map,
-                "{}: '{}' is a mesh, which has no parameters s,t of its own; expected face,u,v",
-                row.place(),
-                object.name
-            );
-            let number = row.index(surface)?;
-            ensure!(
-                number == 0,
-                "{}: surface is {number}; a height map or terrain has only surface 0",
-                row.place()
-            );
-            (0, row.number(s)?, row.number(t)?)
+/// The point of a row, and how its parameters run.
+fn point(row: &Row<'_>, kind: &Kind, object: &LoadedObject) -> anyhow::Result<OwnCoord> {
+    let surface = &object.surface;
+    match *kind {
+        Kind::Face([face, u, v]) => {
+            let at = surface.face_coord(row.index(face)?, row.number(u)?, row.number(v)?);
+            at.map(OwnCoord::of_face)
         }
+        Kind::Surface([number, s, t]) => surface.own_coord(row.index(number)?, row.number(s)?, row.number(t)?),
+    }
+    .with_context(|| format!("{}: '{}'", row.place(), object.name))
+}
+
+/// Derivatives and normal as the parameters of the row run.
+fn in_own_parameters(frame: SurfaceFrame, point: &OwnCoord) -> SurfaceFrame {
+    let [first, second, side] = if point.transposed {
+        [frame.dv, frame.du, -frame.normal]
+    } else {
+        [frame.du, frame.dv, frame.normal]
     };
-    object.surface.face_coord(face, u, v).with_context(|| row.place())
+    SurfaceFrame {
+        position: frame.position,
+        du: first * point.rates[0],
+        dv: second * point.rates[1],
+        normal: side,
+    }
 }
 
 /// A frame in world space: position, derivatives, normal.

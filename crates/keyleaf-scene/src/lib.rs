@@ -1,13 +1,14 @@
 //! Scene and camera-path files, importers and exporters of keyleaf.
 //!
-//! [`open()`] takes what a user points at – a scene (`.ron`), a model or a height map – and gives an [`OpenedScene`]: surfaces
+//! [`open()`] takes what a user points at – a scene (`.ron`), a model, a file of patches or a height map – and gives an [`OpenedScene`]: surfaces
 //! of `keyleaf-surface` with their materials and settings, at least one camera, and at least one camera path.
 //!
 //! | module | gives |
 //! |---|---|
 //! | [`scene`] | the scene file, documented field by field; errors with file, line, column and field |
-//! | [`open`](mod@open) | opening scenes, models and height maps |
+//! | [`open`](mod@open) | opening scenes, models, patches and height maps |
 //! | [`model`] | OBJ, glTF, PLY, STL: one welded [`PolygonMesh`](keyleaf_surface::PolygonMesh), one material |
+//! | [`patch`] | `.bpt`, Newell's tea set, OBJ free-form surfaces: Bézier and NURBS surfaces |
 //! | [`heightmap`] | PNG, TIFF, EXR, raw: exact samples, voids filled |
 //! | [`path`], [`view`] | the camera at any time of a path; default views |
 //! | [`export`] | triangles to OBJ, PLY, STL, bit by bit, whole files or none |
@@ -24,6 +25,8 @@ pub mod material;
 pub mod model;
 pub mod note;
 pub mod open;
+pub mod patch;
+mod patch_surfaces;
 pub mod path;
 pub mod scene;
 mod soup;
@@ -31,12 +34,14 @@ mod surfaces;
 pub mod texture;
 pub mod triangulate;
 pub mod view;
+mod wavefront;
 mod weld;
 
 pub use export::{ExportError, ExportMesh, write_mesh, write_whole};
 pub use heightmap::{HeightMapFile, HeightMapOptions, read_height_map};
 pub use model::{Model, ModelOptions, read_model};
 pub use open::{OpenError, OpenOptions, OpenedScene, OpenedSurface, load_scene, open};
+pub use patch::{PatchFileOptions, PatchModel, read_patches};
 pub use path::Frame;
 pub use scene::{Scene, SceneError};
 pub use view::View;

@@ -1,4 +1,4 @@
-//! Opens what a user points at: a scene file, a model, or a height map; everything that it refers to is read.
+//! Opens what a user points at: a scene file, a model, a file of patches, or a height map; everything that it refers to is read.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -12,22 +12,27 @@ use crate::heightmap::is_height_map;
 use crate::material::SurfaceMaterial;
 use crate::model::is_model;
 use crate::note::Note;
+use crate::patch::is_patch_file;
 use crate::scene::{
-    CameraPath, Colouring, HeightFieldSource, Material, NamedCamera, Problem, Scene, SceneError, Settings, Shape,
-    Source, SurfaceEntry, reference,
+    CameraPath, Colouring, HeightFieldSource, Material, NamedCamera, PatchesSource, Problem, Scene, SceneError,
+    Settings, Shape, Source, SurfaceEntry, Transform, reference,
 };
 use crate::surfaces::{self, Made};
 use crate::view::Extent;
 
 /// The file types that [`open`] knows, as an error lists them.
-pub const OPEN_EXTENSIONS: &str =
-    ".ron (scene); .obj, .gltf, .glb, .ply, .stl (model); .png, .tif, .tiff, .exr, .r16, .raw (height map)";
+pub const OPEN_EXTENSIONS: &str = ".ron (scene); .obj, .gltf, .glb, .ply, .stl (model); .bpt, .obj with 'surf', .teaset, .dat or no ending (patches); \
+     .png, .tif, .tiff, .exr, .r16, .raw (height map)";
 
 /// What a file that is opened directly cannot tell itself.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct OpenOptions {
     /// Width and height in samples of a raw height map; `None`: a square one.
     pub raw_size: Option<[u32; 2]>,
+    /// Trimmed NURBS surfaces are drawn whole; else they are refused.
+    pub ignore_trims: bool,
+    /// Z is up in the file: it is turned by -90 degrees about X.
+    pub z_up: bool,
 }
 
 /// A scene with all that it refers to.
@@ -35,7 +40,7 @@ pub struct OpenOptions {
 pub struct OpenedScene {
     /// The file that was opened.
     pub file: PathBuf,
-    /// The scene, with at least one camera and one path. For a model or a height map, the scene that shows it: its
+    /// The scene, with at least one camera and one path. For a model, patches or a height map, the scene that shows it: its
     /// [`Scene::to_ron`] beside the file opens the same.
     pub scene: Scene,
     /// Its surfaces, in the order of [`Scene::surfaces`].
@@ -51,8 +56,8 @@ pub struct OpenedSurface {
     pub name: String,
     /// The surface, in object space.
     pub surface: Arc<dyn Surface>,
-    /// Attributes of the corners, in the order of the half-edges of the surface's topology; none for height fields
-    /// and terrain.
+    /// Attributes of the corners, in the order of the half-edges of the surface's topology; none for patches,
+    /// height fields and terrain.
     pub corners: CornerAttributes,
     /// Where it stands: a turn, an even scale and a move.
     pub world_from_object: DMat4,
@@ -85,7 +90,7 @@ pub enum OpenError {
     /// The scene file, or something that it refers to.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// A model or height map that was opened directly.
+    /// A model, a file of patches or a height map that was opened directly.
     #[error(transparent)]
     Import(#[from] ImportError),
 }
@@ -117,7 +122,11 @@ fn root_count(surfaces: &[OpenedSurface]) -> u64 {
         .sum()
 }
 
-/// Opens a scene file, a model or a height map; the ending of its name tells which.
+/// Opens a scene file, a model, a file of patches or a height map; the ending of its name tells which, and for .obj files and files
+/// without an ending their content ([`is_patch_file`]).
+///
+/// Coordinates stay as the file has them, with Y up; with [`OpenOptions::z_up`] the surface of a file that is opened directly stands
+/// turned by -90 degrees about X. A scene file gives its own [`Transform`].
 ///
 /// # Errors
 /// [`OpenError`] names file, place and reason; a scene also line, column and field.
@@ -136,8 +145,14 @@ pub fn open(file: &Path, options: &OpenOptions) -> Result<OpenedScene, OpenError
         let scene = Scene::from_ron(&text, file)?;
         return Ok(load(file, &text, scene)?);
     }
-    if is_model(file) || is_height_map(file) {
-        return open_directly(file, options);
+    if is_patch_file(file) {
+        return open_directly(file, Opened::Patches, options);
+    }
+    if is_model(file) {
+        return open_directly(file, Opened::Model, options);
+    }
+    if is_height_map(file) {
+        return open_directly(file, Opened::HeightMap, options);
     }
     Err(OpenError::Import(ImportError::UnknownExtension {
         file: file.to_path_buf(),
@@ -156,11 +171,10 @@ pub fn load_scene(scene: Scene, file: &Path) -> Result<OpenedScene, SceneError> 
 }
 
 fn load(file: &Path, text: &str, mut scene: Scene) -> Result<OpenedScene, SceneError> {
-    let folder = file.parent().unwrap_or(Path::new(""));
     let mut notes = Vec::new();
     let mut made = Vec::new();
     for (index, entry) in scene.surfaces.iter().enumerate() {
-        let surface = surfaces::make(folder, entry, &mut notes).map_err(|failure| {
+        let surface = surfaces::make(file, entry, &mut notes).map_err(|failure| {
             let field = format!("surfaces[{index}].{}", failure.field);
             reference(file, text, field, failure.source)
         })?;
@@ -242,40 +256,59 @@ fn extent(scene: &Scene, made: &[Made]) -> Extent {
 /// Leaves for each root, at least, in the capacity of a model that is opened directly.
 const LEAVES_PER_ROOT: u64 = 4;
 
-fn open_directly(file: &Path, options: &OpenOptions) -> Result<OpenedScene, OpenError> {
+/// What a file is that is no scene.
+#[derive(Clone, Copy, PartialEq)]
+enum Opened {
+    Model,
+    Patches,
+    HeightMap,
+}
+
+/// Turns Z up to Y up.
+const Z_UP: Transform = Transform {
+    translation: [0.0; 3],
+    rotation: [-90.0, 0.0, 0.0],
+    scale: 1.0,
+};
+
+fn source_of(name: String, opened: Opened, options: &OpenOptions) -> Source {
+    match opened {
+        Opened::Model => Source::Mesh(name),
+        Opened::Patches => Source::Patches(PatchesSource {
+            ignore_trims: options.ignore_trims,
+            ..PatchesSource::new(name)
+        }),
+        Opened::HeightMap => Source::HeightField(HeightFieldSource {
+            raw_size: options.raw_size,
+            ..HeightFieldSource::new(name)
+        }),
+    }
+}
+
+fn open_directly(file: &Path, opened: Opened, options: &OpenOptions) -> Result<OpenedScene, OpenError> {
     let name = file
         .file_name()
         .map(|n| n.to_string_lossy().into_owned())
         .unwrap_or_default();
-    let is_map = is_height_map(file);
-    let source = if is_map {
-        Source::HeightField(HeightFieldSource {
-            raw_size: options.raw_size,
-            ..HeightFieldSource::new(name)
-        })
-    } else {
-        Source::Mesh(name)
-    };
     let stem = file.file_stem().map(|s| s.to_string_lossy().into_owned());
-    let colouring = if is_map {
-        Colouring::Terrain(Default::default())
-    } else {
-        Colouring::Plain
+    let colouring = match opened {
+        Opened::HeightMap => Colouring::Terrain(Default::default()),
+        Opened::Model | Opened::Patches => Colouring::Plain,
     };
+    let transform = if options.z_up { Z_UP } else { Transform::default() };
     let mut entry = SurfaceEntry {
         name: stem.filter(|s| !s.trim().is_empty()).unwrap_or("surface".into()),
-        source,
+        source: source_of(name, opened, options),
         surface: Shape::Flat,
-        transform: Default::default(),
+        transform,
         material: Material {
             colouring,
             ..Material::default()
         },
         settings: Default::default(),
     };
-    let folder = file.parent().unwrap_or(Path::new(""));
     let mut notes = Vec::new();
-    let made = surfaces::make(folder, &entry, &mut notes).map_err(|failure| failure.without_scene(file))?;
+    let made = surfaces::make(file, &entry, &mut notes).map_err(|failure| failure.without_scene(file))?;
     if let (Source::HeightField(map), Some(spacing)) = (&mut entry.source, made.spacing) {
         map.spacing = Some(spacing);
     }

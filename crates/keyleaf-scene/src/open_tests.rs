@@ -20,7 +20,10 @@ fn folder(name: &str, scene: &str) -> PathBuf {
 }
 
 fn open_in(folder: &Path, name: &str) -> Result<OpenedScene, String> {
-    let options = OpenOptions { raw_size: Some([5, 4]) };
+    let options = OpenOptions {
+        raw_size: Some([5, 4]),
+        ..OpenOptions::default()
+    };
     open(&folder.join(name), &options).map_err(|e| e.to_string())
 }
 
@@ -46,7 +49,7 @@ fn model_opens_directly_and_its_scene_opens_the_same() {
     let opened = open_in(&folder, "cube.obj").unwrap();
     assert_eq!(opened.root_count(), 24);
     assert_eq!(opened.surfaces[0].surface.shader(), "surfaces/mesh.wgsl");
-    assert_eq!(opened.surfaces[0].material.base_colour, [0.8, 0.8, 0.8, 1.0]);
+    assert_eq!(opened.surfaces[0].material.base_colour, [0.45, 0.45, 0.45, 1.0]);
     let camera = opened.camera(None).unwrap();
     assert!((DVec3::from(camera.look_at) - DVec3::splat(0.5)).length() < 1e-12);
     has_fly_in_turn_and_teleport(opened.path(None).unwrap());
@@ -208,4 +211,120 @@ fn scenes_made_in_code_are_checked_too() {
     });
     let error = load_scene(scene, Path::new("s.ron")).unwrap_err().to_string();
     assert!(error.contains("surfaces[0].source.gain: NaN"), "{error}");
+}
+
+/// Two bilinear patches that share a boundary, and a third apart from them.
+const PATCHES: &str =
+    "3\n1 1\n0 0 0\n1 0 0\n0 1 0\n1 1 2\n1 1\n1 0 0\n2 0 0\n1 1 2\n2 1 0\n1 1\n0 5 0\n1 5 0\n0 6 0\n0 6 0\n";
+
+#[test]
+fn patches_open_directly() {
+    let folder = folder("patches", "");
+    std::fs::write(folder.join("sheet.bpt"), PATCHES).unwrap();
+    let opened = open_in(&folder, "sheet.bpt").unwrap();
+    assert_eq!(opened.surfaces[0].surface.shader(), "surfaces/bezier.wgsl");
+    assert_eq!(opened.surfaces[0].files.len(), 1);
+    assert_eq!(opened.surfaces[0].world_from_object, DMat4::IDENTITY);
+    let z_up = OpenOptions {
+        z_up: true,
+        ..OpenOptions::default()
+    };
+    let upright = open(&folder.join("sheet.bpt"), &z_up).unwrap();
+    let up = upright.surfaces[0].world_from_object.transform_vector3(DVec3::Z);
+    assert!((up - DVec3::Y).length() < 1e-15);
+    let notes = opened
+        .notes
+        .iter()
+        .map(|note| note.text.as_str())
+        .collect::<Vec<_>>()
+        .join("\n");
+    for expected in [
+        "pairs of boundaries joined: 1 (1 equal, 0 within",
+        "same knots: 9",
+        "collapse (poles): 1",
+    ] {
+        assert!(notes.contains(expected), "{notes}");
+    }
+    has_fly_in_turn_and_teleport(opened.path(None).unwrap());
+    std::fs::write(folder.join("scene.ron"), opened.scene.to_ron().unwrap()).unwrap();
+    assert_eq!(open_in(&folder, "scene.ron").unwrap().scene, opened.scene);
+    let refused = std::fs::write(folder.join("broken.bpt"), PATCHES.replacen("1 1 2", "1 1 nan", 1));
+    refused.unwrap();
+    let error = open_in(&folder, "broken.bpt").unwrap_err();
+    assert!(error.contains("broken.bpt: line 6: control point is NaN"), "{error}");
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+const TRIMMED: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\ncstype bspline\ndeg 1 1\nsurf 0 1 0 1 1 2 3 4\n\
+    parm u 0 0 1 1\nparm v 0 0 1 1\ntrim 0 1 1\nend\n";
+
+#[test]
+fn obj_with_surfaces_opens_as_patches_and_trims_are_ignored_on_request() {
+    let folder = folder("surf", "");
+    let file = folder.join("a.obj");
+    std::fs::write(&file, TRIMMED).unwrap();
+    let error = open_in(&folder, "a.obj").unwrap_err();
+    assert!(
+        error.contains("a.obj: line 10: 'trim': untrimmed surfaces only"),
+        "{error}"
+    );
+    let options = OpenOptions {
+        ignore_trims: true,
+        ..OpenOptions::default()
+    };
+    let opened = open(&file, &options).unwrap();
+    assert!(matches!(&opened.scene.surfaces[0].source, Source::Patches(p) if p.ignore_trims));
+    assert!(opened.notes.iter().any(|note| {
+        note.text
+            .contains("surfaces whose trimming curves are ignored, drawn whole: 1")
+    }));
+    assert!(
+        open_in(&folder, "cube.obj").unwrap().surfaces[0]
+            .surface
+            .shader()
+            .contains("mesh")
+    );
+    std::fs::remove_dir_all(folder).unwrap();
+}
+
+const PATCH_SCENE: &str = r#"(surfaces: [
+    (name: "file", source: Patches(path: "sheet.bpt", basis: Extraction)),
+    (name: "strip", source: Nurbs(surfaces: [
+        (degree: (1, 1), points: [[(0, 0, 0), (1, 0, 0)], [(0, 1, 0), (1, 1, 0)]]),
+        (degree: (1, 1), points: [[(1.00001, 0, 0), (1, 1, 0)], [(2, 0, 0), (2, 1, 0)]]),
+    ], tolerance: 1e-4, basis: Stair)),
+    (name: "patch", source: Bezier(patches: [[[(0, 0, 0), (1, 0, 0)], [(0, 1, 0), (1, 1, 0)]]])),
+])"#;
+
+#[test]
+fn scene_with_patches_is_loaded() {
+    let folder = folder("patch-scene", PATCH_SCENE);
+    std::fs::write(folder.join("sheet.bpt"), PATCHES).unwrap();
+    let opened = open_in(&folder, "scene.ron").unwrap();
+    let shaders: Vec<_> = opened.surfaces.iter().map(|s| s.surface.shader()).collect();
+    assert_eq!(
+        shaders,
+        [
+            "surfaces/nurbs_extraction.wgsl",
+            "surfaces/nurbs_stair.wgsl",
+            "surfaces/bezier.wgsl"
+        ]
+    );
+    let said = |part: &str| {
+        opened
+            .notes
+            .iter()
+            .any(|note| note.file.ends_with("scene.ron") && note.text.contains(part))
+    };
+    assert!(said(
+        "pairs of boundaries joined: 1 (0 equal, 1 within the tolerance, control points moved by at most "
+    ));
+    assert!(said("same side up: 1"));
+    std::fs::write(folder.join("scene.ron"), PATCH_SCENE.replace("sheet.bpt", "none.bpt")).unwrap();
+    let error = open_in(&folder, "scene.ron").unwrap_err();
+    assert!(
+        error.contains("scene.ron:2:42: surfaces[0].source.path: ") && error.contains("cannot be read"),
+        "{error}"
+    );
+    std::fs::remove_dir_all(folder).unwrap();
 }

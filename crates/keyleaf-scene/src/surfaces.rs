@@ -15,6 +15,7 @@ use crate::heightmap::{HeightMapOptions, read_displacement, read_height_map};
 use crate::material::SurfaceMaterial;
 use crate::model::{Model, ModelOptions, read_model};
 use crate::note::Note;
+use crate::patch_surfaces;
 use crate::scene::{
     Colouring, DisplacementHeight, HeightFieldSource, Interpolation, Material, Shape, Source, SurfaceEntry,
     TerrainSource,
@@ -22,7 +23,7 @@ use crate::scene::{
 use crate::texture::ColourTexture;
 
 /// The grey of a surface without a material, linear.
-const GREY: f32 = 0.8;
+const GREY: f32 = 0.45;
 /// Where snow begins, as a fraction of the relief, if the scene does not say.
 const SNOW_LINE: f64 = 0.7;
 /// Samples along each side of the part of a terrain that default views show.
@@ -50,7 +51,7 @@ pub(crate) struct Failure {
 }
 
 impl Failure {
-    fn of<E: Error + Send + Sync + 'static>(field: &'static str) -> impl Fn(E) -> Self {
+    pub fn of<E: Error + Send + Sync + 'static>(field: &'static str) -> impl Fn(E) -> Self {
         move |error| Self {
             field,
             source: Box::new(error),
@@ -66,12 +67,16 @@ impl Failure {
     }
 }
 
-/// Makes the surface of an entry; paths are relative to `folder`.
-pub(crate) fn make(folder: &Path, entry: &SurfaceEntry, notes: &mut Vec<Note>) -> Result<Made, Failure> {
+/// Makes the surface of an entry of the scene `file`; paths are relative to its folder.
+pub(crate) fn make(file: &Path, entry: &SurfaceEntry, notes: &mut Vec<Note>) -> Result<Made, Failure> {
+    let folder = file.parent().unwrap_or(Path::new(""));
     let mut made = match &entry.source {
         Source::Mesh(path) => make_mesh(folder, &folder.join(path), entry, notes)?,
         Source::HeightField(source) => make_height_field(folder, source, notes)?,
         Source::Terrain(source) => make_terrain(source)?,
+        Source::Patches(source) => patch_surfaces::of_file(folder, source, notes)?,
+        Source::Nurbs(source) => patch_surfaces::of_nurbs(file, source, notes)?,
+        Source::Bezier(source) => patch_surfaces::of_bezier(file, source, notes)?,
     };
     dress(folder, &entry.material, &mut made)?;
     Ok(made)

@@ -72,6 +72,10 @@ impl From<&NamedCamera> for View {
     }
 }
 
+/// The part of the picture that an object fills, and the narrowest picture for which that holds: width over height.
+const FILLED: f64 = 0.85;
+const NARROWEST: f64 = 4.0 / 3.0;
+
 /// What a scene looks like from afar, for the views that it gets if it has none.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Extent {
@@ -125,12 +129,27 @@ impl Extent {
         self.centre() + self.radius() * DVec3::new(x, y, z)
     }
 
+    /// The eye in this direction from the centre that is just so far away that the box fills the picture, a little smaller than it.
+    fn fitting(&self, direction: DVec3) -> DVec3 {
+        let towards = direction.normalize();
+        let axes = View::new(self.centre() + towards, self.centre(), DEFAULT_FOV, None).axes();
+        let half_height = FILLED * (DEFAULT_FOV.to_radians() / 2.0).tan();
+        let corner = (self.high - self.low) / 2.0;
+        let distance = (0..8u32).map(|k| {
+            let sign = |axis: u32| if k >> axis & 1 == 0 { -1.0 } else { 1.0 };
+            let seen = axes.transpose() * (corner * DVec3::new(sign(0), sign(1), sign(2)));
+            seen.z + (seen.y.abs() / half_height).max(seen.x.abs() / (half_height * NARROWEST))
+        });
+        let farthest = distance.fold(0.0, f64::max);
+        self.centre() + towards * if farthest > 0.0 { farthest } else { 3.0 }
+    }
+
     /// A camera that sees all of an object, or across the ground.
     pub fn camera(&self) -> NamedCamera {
         let (eye, look_at) = if self.is_ground {
             (self.above(0.5, -0.02, 0.09), self.ground(0.5, 0.45))
         } else {
-            (self.around(1.3, 0.8, 2.2), self.centre())
+            (self.fitting(DVec3::new(1.3, 0.8, 2.2)), self.centre())
         };
         NamedCamera {
             name: "default".into(),

@@ -79,7 +79,7 @@ fn nearness(scene: &OpenedScene, meshes: &[DVec3], eye: DVec3) -> f64 {
 #[test]
 fn every_scene_has_cameras_and_a_path_with_a_fly_in_a_fast_turn_and_a_cut() {
     let scenes = scenes();
-    assert!(scenes.len() >= 9, "only {} scenes", scenes.len());
+    assert!(scenes.len() >= 15, "only {} scenes", scenes.len());
     for (file, scene) in &scenes {
         let name = file.display();
         assert!(
@@ -157,6 +157,8 @@ fn the_scenes_show_every_kind_of_surface_and_metric() {
         "displaced_texture",
         "height_field",
         "terrain",
+        "bezier",
+        "nurbs",
     ] {
         assert!(
             shaders.contains(format!("surfaces/{kind}.wgsl").as_str()),
@@ -165,4 +167,79 @@ fn the_scenes_show_every_kind_of_surface_and_metric() {
     }
     assert!(surfaces().any(|s| matches!(s.settings.metric, Metric::Edge { .. })));
     assert!(surfaces().any(|s| matches!(s.settings.metric, Metric::Distance { .. })));
+}
+
+/// What importers said of a scene, one note a line.
+fn notes(scene: &OpenedScene) -> String {
+    scene.notes.iter().map(|note| format!("{note}\n")).collect()
+}
+
+#[test]
+fn closed_scenes_of_patches_have_no_open_boundaries_and_the_poles_they_should() {
+    let scenes = scenes();
+    let check = |name: &str, poles: usize, open: usize| {
+        let file = format!("{name}.ron");
+        let (_, scene) = scenes.iter().find(|(f, _)| f.ends_with(&file)).unwrap();
+        let notes = notes(scene);
+        let said = |text: &str, number: usize| match number {
+            0 => assert!(!notes.contains(text), "{file}: {notes}"),
+            _ => assert!(notes.contains(&format!("{text}: {number}\n")), "{file}: {notes}"),
+        };
+        said("no other has the same curve with the same knots", open);
+        said("points into which boundaries collapse (poles)", poles);
+        assert!(!notes.contains("warning"), "{file}: {notes}");
+    };
+    check("goblet", 2, 0);
+    check("torus", 0, 0);
+    check("pot", 6, 0);
+    // The outer sides of three by three panels.
+    check("panels", 0, 12);
+    check("quintic", 0, 4);
+    check("crease", 0, 4);
+}
+
+#[test]
+fn the_torus_is_round_and_the_goblet_faces_outwards() {
+    let scenes = scenes();
+    let surface = |name: &str| {
+        let (_, scene) = scenes.iter().find(|(f, _)| f.ends_with(name)).unwrap();
+        scene.surfaces[0].surface.clone()
+    };
+    let torus = surface("torus.ron");
+    let goblet = surface("goblet.ron");
+    for k in 0..200 {
+        let (s, t) = (4.0 * f64::from(k) / 199.0, f64::from(k * 7 % 40) / 10.0);
+        let p = torus.point(torus.own_coord(0, s, t).unwrap().at);
+        let to_tube = DVec3::new(p.x.hypot(p.z) - 2.0, p.y, 0.0);
+        assert!((to_tube.length() - 0.55).abs() < 1e-12, "{p}");
+        let frame = goblet.frame(goblet.own_coord(0, s, 6.0).unwrap().at);
+        assert!(frame.normal.dot(DVec3::new(frame.position.x, 0.0, frame.position.z)) > 0.0);
+    }
+}
+
+#[test]
+fn the_quintic_is_the_polynomial_that_it_says() {
+    let scenes = scenes();
+    let (_, scene) = scenes.iter().find(|(f, _)| f.ends_with("quintic.ron")).unwrap();
+    let surface = &scene.surfaces[0].surface;
+    for k in 0..=20 {
+        let (u, v) = (f64::from(k) / 20.0, f64::from(k * 7 % 21) / 20.0);
+        let p = surface.point(surface.own_coord(0, u, v).unwrap().at);
+        let (x, z) = (p.x / 3.0, p.z / 3.0);
+        let y = 0.4 * (x.powi(5) - 10.0 * x.powi(3) * z * z + 5.0 * x * z.powi(4));
+        assert!((p.y - y).abs() < 1e-12, "{p}: {y}");
+    }
+}
+
+#[test]
+fn the_crease_is_sharp_in_the_middle_and_fades_at_its_ends() {
+    let scenes = scenes();
+    let (_, scene) = scenes.iter().find(|(f, _)| f.ends_with("crease.ron")).unwrap();
+    let surface = &scene.surfaces[0].surface;
+    let bend = |v: f64| {
+        let normal = |u: f64| surface.frame(surface.own_coord(0, u, v).unwrap().at).normal;
+        normal(1.0 - 1e-9).angle_between(normal(1.0)).to_degrees()
+    };
+    assert!(bend(1.5) > 60.0, "{}", bend(1.5));
+    assert!(bend(0.0) < 1e-3 && bend(3.0) < 1e-3, "{} {}", bend(0.0), bend(3.0));
 }

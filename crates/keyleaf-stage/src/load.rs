@@ -4,7 +4,7 @@ use crate::stage::{colour, look_of, world_box};
 use glam::{DAffine3, DVec3, UVec2, Vec3};
 use keyleaf::draw::{ColourTexture, Look};
 use keyleaf::shading::{Material, Shading};
-use keyleaf::{Metric, Projection, Settings, View};
+use keyleaf::{Metric, Projection, Settings, Threshold, View};
 use keyleaf_scene::scene::{CameraPath, Colouring, Culling, Effect, NamedCamera};
 use keyleaf_scene::{OpenError, OpenOptions, OpenedSurface, Scene};
 use keyleaf_surface::Surface;
@@ -129,11 +129,28 @@ fn object(opened: OpenedSurface) -> LoadedObject {
 
 /// The settings of a scene file as the library takes them.
 pub fn settings(scene: &keyleaf_scene::scene::Settings) -> Settings {
-    use keyleaf_scene::scene::Metric as Wanted;
+    use keyleaf_scene::scene::{Metric as Wanted, Threshold as WantedThreshold};
+    let of = |threshold| match threshold {
+        WantedThreshold::Units(value) => Threshold::Units(value as f32),
+        WantedThreshold::Pixels(value) => Threshold::Pixels(value as f32),
+    };
     Settings {
         metric: match scene.metric {
             Wanted::Edge { pixels } => Metric::Edge { pixels: pixels as f32 },
             Wanted::Distance { factor } => Metric::Distance { factor: factor as f32 },
+            Wanted::Deviation { pixels } => Metric::Deviation { pixels: pixels as f32 },
+            Wanted::Boundary {
+                pixels,
+                boundary_pixels,
+            } => Metric::Boundary {
+                pixels: pixels as f32,
+                boundary_pixels: boundary_pixels as f32,
+            },
+            Wanted::LocalArea { pixels } => Metric::LocalArea { pixels: pixels as f32 },
+            Wanted::LinearApproximation { pixels } => Metric::LinearApproximation { pixels: pixels as f32 },
+            Wanted::DistanceTest(threshold) => Metric::DistanceTest(of(threshold)),
+            Wanted::FlatTest(threshold) => Metric::FlatTest(of(threshold)),
+            Wanted::LengthTest(threshold) => Metric::LengthTest(of(threshold)),
         },
         base_grid: scene.base_grid,
         capacity: scene.capacity,

@@ -170,7 +170,7 @@ fn surface(
         name: object.name.clone(),
         surface: kind.surface.to_owned(),
         metric: object.settings.metric.name().to_owned(),
-        history_dependent: false,
+        history_dependent: !object.settings.metric.is_nested(),
         faces: topology.face_count(),
         roots: topology.half_edge_count(),
         capacity,

@@ -40,6 +40,7 @@ mod height_map;
 mod interpolation;
 mod map;
 mod mesh;
+mod metric;
 mod noise;
 mod patches;
 mod polygon_mesh;
@@ -55,6 +56,7 @@ pub use height_field::{HeightField, HeightFieldSettings};
 pub use height_map::{HeightMap, MAX_MAP_SIDE};
 pub use interpolation::Interpolation;
 pub use mesh::Mesh;
+pub use metric::MetricSize;
 pub use patches::{
     BasisMethod, Boundary, JoinReport, NurbsSurface, PatchError, PatchKind, PatchSettings, Patches, Pole, Side,
     Unjoined,

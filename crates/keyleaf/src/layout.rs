@@ -171,12 +171,14 @@ pub mod arguments {
     pub const ENTER: u64 = 96;
     /// Of `update`.
     pub const UPDATE: u64 = 112;
+    /// Of `update_requested`, in its place where there are requests.
+    pub const UPDATE_REQUESTED: u64 = 128;
     /// Of passes with an invocation a leaf.
-    pub const LEAVES: u64 = 128;
+    pub const LEAVES: u64 = 144;
     /// Of the draw.
-    pub const DRAW: u64 = 144;
+    pub const DRAW: u64 = 160;
     /// Of the buffer.
-    pub const SIZE: u64 = 176;
+    pub const SIZE: u64 = 192;
 }
 
 /// Leaves that one workgroup of `update` takes.

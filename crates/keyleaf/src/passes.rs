@@ -59,7 +59,13 @@ pub fn modules(kind: &Kind) -> Vec<Module> {
         ),
     };
     let mut all = vec![
-        module("update", &["passes/update.wgsl", speaker], UPDATE, false, &["update"]),
+        module(
+            "update",
+            &["passes/update.wgsl", speaker],
+            UPDATE,
+            false,
+            &["update", "update_requested"],
+        ),
         module("decide", &[decide], DECIDE, true, &["decide_splits", "decide_merges"]),
         module("apply", change, APPLY, true, &["apply"]),
         module(

@@ -389,6 +389,7 @@ impl Quadtree {
             }
             Phase::Update => {
                 self.dispatch(pass, "update", 0, &groups.update, arguments::UPDATE);
+                self.dispatch(pass, "update", 1, &groups.update, arguments::UPDATE_REQUESTED);
                 self.dispatch_one(pass, "copy", 2, &groups.copy);
             }
         }

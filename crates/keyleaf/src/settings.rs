@@ -2,6 +2,7 @@
 
 use crate::KeyleafError;
 use keyleaf_key::MAX_LEVEL;
+use keyleaf_surface::MetricSize;
 
 /// When a leaf is too coarse.
 ///
@@ -113,6 +114,22 @@ impl Metric {
             | Self::Boundary { .. }
             | Self::LocalArea { .. } => true,
             Self::LinearApproximation { .. } | Self::DistanceTest(_) | Self::FlatTest(_) | Self::LengthTest(_) => false,
+        }
+    }
+
+    /// The twin in f64 of what the shader computes of a leaf.
+    pub fn size(&self) -> MetricSize {
+        match self {
+            Self::Edge { .. } => MetricSize::Edge,
+            Self::Distance { .. } => MetricSize::Distance,
+            Self::Deviation { .. } => MetricSize::Deviation,
+            Self::Boundary { .. } => MetricSize::Boundary(self.parameter().into()),
+            Self::LocalArea { .. } => MetricSize::LocalArea,
+            Self::LinearApproximation { .. } => MetricSize::LinearApproximation,
+            Self::DistanceTest(_) => MetricSize::DistanceTest,
+            Self::FlatTest(Threshold::Units(_)) => MetricSize::FlatTest,
+            Self::FlatTest(Threshold::Pixels(_)) => MetricSize::FlatTestPixels,
+            Self::LengthTest(_) => MetricSize::LengthTest,
         }
     }
 

@@ -12,7 +12,8 @@ use glam::DVec3;
 use crate::error::{FilePlace, ImportError};
 use crate::material::SurfaceMaterial;
 use crate::note::Note;
-use crate::soup::{Soup, check_finite, linear_from_srgb, unit};
+use crate::soup::{Soup, linear_from_srgb, unit};
+use crate::wavefront::{for_each_line, index, numbers, rest_of};
 
 use super::mtl;
 
@@ -40,6 +41,7 @@ struct Reader {
 }
 
 const NONE: u32 = u32::MAX;
+const FREE_FORM: &str = "free-form curves and surfaces";
 
 /// Reads an OBJ file from its bytes; `file` names it in errors and is where material libraries are looked for.
 pub(super) fn read(file: &Path, bytes: &[u8], notes: &mut Vec<Note>) -> Result<Obj, ImportError> {
@@ -48,35 +50,7 @@ pub(super) fn read(file: &Path, bytes: &[u8], notes: &mut Vec<Note>) -> Result<O
     reader.soup.states_topology = true;
     // Faces before the first `usemtl`.
     reader.use_material("");
-    let mut joined = String::new();
-    let mut first_line = 0;
-    for (index, line) in text.lines().enumerate() {
-        let number = index + 1;
-        let line = line.split('#').next().unwrap_or("");
-        if let Some(start) = line.trim_end().strip_suffix('\\') {
-            if joined.is_empty() {
-                first_line = number;
-            }
-            joined.push_str(start);
-            joined.push(' ');
-            continue;
-        }
-        if joined.is_empty() {
-            reader.line(file, number, line)?;
-        } else {
-            joined.push_str(line);
-            reader.line(file, first_line, &joined)?;
-            joined.clear();
-        }
-    }
-    if !joined.is_empty() {
-        let place = FilePlace::Line(text.lines().count());
-        return Err(ImportError::malformed(
-            file,
-            place,
-            "the last line ends in a continuation '\\'",
-        ));
-    }
+    for_each_line(file, &text, |number, line| reader.line(file, number, line))?;
     reader.finish(file, notes)
 }
 
@@ -107,7 +81,7 @@ impl Reader {
                 Ok(())
             }
             "p" | "l" => self.skip("points and lines"),
-            "curv" | "curv2" | "surf" => self.skip("free-form curves and surfaces"),
+            "curv" | "curv2" | "surf" => self.skip(FREE_FORM),
             // Names, groups, smoothing, free-form bodies, subdivision tags.
             _ => Ok(()),
         }
@@ -182,6 +156,10 @@ impl Reader {
     }
 
     fn finish(mut self, file: &Path, notes: &mut Vec<Note>) -> Result<Obj, ImportError> {
+        if self.soup.face_count() == 0 && self.skipped.contains_key(FREE_FORM) {
+            let reason = "it has no polygons but free-form curves and surfaces; read it as Patches, not as a Mesh";
+            return Err(ImportError::empty(file, reason));
+        }
         let mut skipped: Vec<_> = self.skipped.iter().collect();
         skipped.sort();
         for (what, count) in skipped {
@@ -235,58 +213,4 @@ impl Reader {
             self.soup.colours = self.soup.corners.iter().map(colour).collect();
         }
     }
-}
-
-/// The rest of a line after its keyword, trimmed: names may hold spaces.
-fn rest_of<'a>(line: &'a str, keyword: &str) -> &'a str {
-    line.trim_start().strip_prefix(keyword).unwrap_or("").trim()
-}
-
-/// Up to `N` finite numbers, at least `least` of them, and how many there were. More are ignored.
-fn numbers<'a, const N: usize>(
-    file: &Path,
-    line: usize,
-    keyword: &'static str,
-    least: usize,
-    words: impl Iterator<Item = &'a str>,
-) -> Result<([f64; N], usize), ImportError> {
-    let mut values = [0.0; N];
-    let mut count = 0;
-    for (value, word) in values.iter_mut().zip(words) {
-        *value = word.parse().map_err(|_| {
-            let reason = format!("'{word}' after '{keyword}' is no number");
-            ImportError::malformed(file, FilePlace::Line(line), reason)
-        })?;
-        count += 1;
-    }
-    if count < least {
-        let reason = format!("'{keyword}' needs at least {least} numbers, found {count}");
-        return Err(ImportError::malformed(file, FilePlace::Line(line), reason));
-    }
-    check_finite(file, || FilePlace::Line(line), keyword, &values)?;
-    Ok((values, count))
-}
-
-/// A 1-based or, if negative, backward index as a 0-based one.
-fn index(file: &Path, line: usize, what: &'static str, text: &str, count: usize) -> Result<u32, ImportError> {
-    let place = FilePlace::Line(line);
-    let Ok(index) = text.parse::<i64>() else {
-        let reason = format!("'{text}' is no {what} index");
-        return Err(ImportError::malformed(file, place, reason));
-    };
-    let from_start = if index > 0 {
-        index - 1
-    } else {
-        index.saturating_add(count as i64)
-    };
-    if index == 0 || from_start < 0 || from_start >= count as i64 {
-        return Err(ImportError::IndexOutOfRange {
-            file: file.to_path_buf(),
-            place,
-            what,
-            index,
-            count,
-        });
-    }
-    Ok(from_start as u32)
 }

@@ -32,14 +32,19 @@
 //! ```
 
 mod camera;
+mod control_point;
 mod error;
 mod light;
 mod locate;
+mod patches;
+#[cfg(test)]
+mod patches_tests;
 mod settings;
 mod surface;
 #[cfg(test)]
 mod tests;
 mod validate;
+mod validate_patches;
 
 use std::path::Path;
 
@@ -47,10 +52,13 @@ use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
 
 pub use camera::{CameraPath, DEFAULT_FOV, Ease, NamedCamera, PathKey};
+pub use control_point::ControlPoint;
 pub use error::SceneError;
 pub(crate) use error::{Problem, reference};
 pub use light::{Effect, Fog, Light};
-pub use settings::{Culling, GuardBand, Metric, Settings, SettingsOverrides};
+pub(crate) use patches::bezier_surface;
+pub use patches::{Basis, BezierSource, NurbsPatch, NurbsSource, PatchesSource};
+pub use settings::{Culling, GuardBand, Metric, Settings, SettingsOverrides, Threshold};
 pub use surface::{
     Colouring, DisplacedSource, DisplacementHeight, HeightFieldSource, Interpolation, Material, NoiseHeight, Shape,
     Source, SurfaceEntry, TerrainColours, TerrainSource, TextureHeight, Transform,

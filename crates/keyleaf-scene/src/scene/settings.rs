@@ -77,6 +77,54 @@ pub enum Metric {
         #[serde(default = "Metric::default_factor")]
         factor: f64,
     },
+    /// When the surface is farther than this from the drawn triangles, by bounds of its second derivatives: flat parts stay coarse.
+    /// For Bézier and NURBS surfaces and flat meshes; height fields and noise count with the length of their edges.
+    Deviation {
+        /// Pixels, above 0; default 1.
+        #[serde(default = "one_pixel")]
+        pixels: f64,
+    },
+    /// As `Edge`, but finer at open boundaries (Concheiro 6.10).
+    Boundary {
+        /// Length of a drawn edge in pixels, above 0; default 8.
+        #[serde(default = "Metric::default_pixels")]
+        pixels: f64,
+        /// The same at open boundaries, above 0 and at most `pixels`; default 1.
+        #[serde(default = "one_pixel")]
+        boundary_pixels: f64,
+    },
+    /// By the size of the face on the screen, evenly divided (Concheiro 6.8).
+    LocalArea {
+        /// Length of a drawn edge in pixels, above 0; default 8.
+        #[serde(default = "Metric::default_pixels")]
+        pixels: f64,
+    },
+    /// When the surface is farther than this from a triangle at some samples (Concheiro 6.9). Like the tests below, it sees the
+    /// surface at samples only, and what has settled can depend on what the camera saw before.
+    LinearApproximation {
+        /// Pixels, above 0; default 1.
+        #[serde(default = "one_pixel")]
+        pixels: f64,
+    },
+    /// When the vertices that a split would insert are farther than this from the triangle (Concheiro 3.2.2).
+    DistanceTest(Threshold),
+    /// When the surface turns away from an edge (Concheiro 3.2.2). `Units`: the least cosine that counts as flat.
+    FlatTest(Threshold),
+    /// When half an edge is longer than this (Concheiro 3.2.2).
+    LengthTest(Threshold),
+}
+
+/// The threshold of a sampled test.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum Threshold {
+    /// In the unit of the test, whatever the view: a length of the model, above 0, or a cosine, 0 to below 1.
+    Units(f64),
+    /// In pixels, above 0.
+    Pixels(f64),
+}
+
+fn one_pixel() -> f64 {
+    1.0
 }
 
 impl Metric {

@@ -4,6 +4,7 @@ use glam::{DMat4, DQuat, DVec3, EulerRot};
 use keyleaf_surface::TerrainSettings;
 use serde::{Deserialize, Serialize};
 
+use super::patches::{BezierSource, NurbsSource, PatchesSource};
 use super::settings::SettingsOverrides;
 
 /// One surface of a scene.
@@ -32,12 +33,18 @@ pub struct SurfaceEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Source {
-    /// A model: .obj, .gltf, .glb, .ply, .stl.
+    /// A model of polygons: .obj, .gltf, .glb, .ply, .stl.
     Mesh(String),
     /// A height map: .png, .tif, .exr, .r16.
     HeightField(HeightFieldSource),
     /// Procedural terrain.
     Terrain(TerrainSource),
+    /// A file of Bézier or NURBS surfaces: .bpt, .obj with `surf`, Newell's tea set.
+    Patches(PatchesSource),
+    /// NURBS surfaces, written here.
+    Nurbs(NurbsSource),
+    /// Bézier patches, written here.
+    Bezier(BezierSource),
 }
 
 /// A height map over the rectangle (0..width, -depth..0) of the XZ plane: east is +X, north is -Z.
@@ -262,10 +269,10 @@ impl Transform {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Material {
-    /// Multiplies the other colours; default `None`: white, or (0.8, 0.8, 0.8) where there are no other colours.
+    /// Multiplies the other colours; default `None`: white, or (0.45, 0.45, 0.45) where there are no other colours.
     pub base_colour: Option<[f32; 3]>,
     /// A picture in place of the model's own, relative to the scene's folder. Needs texture coordinates; a height
-    /// field and a terrain have (0..1) over the whole.
+    /// field and a terrain have (0..1) over the whole, Bézier and NURBS surfaces none.
     pub texture: Option<String>,
     /// Whether colours at the corners of the model are used, also those of several materials. Default true.
     pub vertex_colours: bool,

@@ -5,12 +5,13 @@ use std::collections::HashSet;
 use crate::MAX_COORDINATE;
 
 use super::error::Problem;
+use super::validate_patches::{check_bezier, check_nurbs, check_patches};
 use super::{
     CameraPath, Colouring, DisplacementHeight, Effect, Light, Material, Metric, PathKey, Scene, Settings,
-    SettingsOverrides, Shape, Source, SurfaceEntry, TerrainSource,
+    SettingsOverrides, Shape, Source, SurfaceEntry, TerrainSource, Threshold,
 };
 
-type Checked = Result<(), Problem>;
+pub(super) type Checked = Result<(), Problem>;
 
 /// The largest `settle`.
 const MAX_SETTLE: u32 = 64;
@@ -96,7 +97,7 @@ fn not_zero(field: &str, value: f64) -> Checked {
 }
 
 /// Between two bounds, both allowed.
-fn within(field: &str, value: f64, low: f64, high: f64) -> Checked {
+pub(super) fn within(field: &str, value: f64, low: f64, high: f64) -> Checked {
     if value >= low && value <= high {
         return Ok(());
     }
@@ -135,7 +136,7 @@ fn colour(field: &str, value: &[f32; 3], most: f32) -> Checked {
     }
 }
 
-fn file_name(field: &str, name: &str) -> Checked {
+pub(super) fn file_name(field: &str, name: &str) -> Checked {
     if name.trim().is_empty() {
         return Err(Problem::new(field, "expected the path of a file"));
     }
@@ -168,6 +169,26 @@ fn check_metric(field: &str, metric: Metric) -> Checked {
     match metric {
         Metric::Edge { pixels } => positive(&format!("{field}.pixels"), pixels),
         Metric::Distance { factor } => positive(&format!("{field}.factor"), factor),
+        Metric::Deviation { pixels } | Metric::LocalArea { pixels } | Metric::LinearApproximation { pixels } => {
+            positive(&format!("{field}.pixels"), pixels)
+        }
+        Metric::Boundary {
+            pixels,
+            boundary_pixels,
+        } => {
+            positive(&format!("{field}.pixels"), pixels)?;
+            positive(&format!("{field}.boundary_pixels"), boundary_pixels)?;
+            within(&format!("{field}.boundary_pixels"), boundary_pixels, 0.0, pixels)
+        }
+        Metric::FlatTest(Threshold::Units(cosine)) if cosine >= 1.0 => Err(Problem::new(
+            field,
+            format!("expected a cosine from 0 to below 1, found {cosine}"),
+        )),
+        Metric::FlatTest(Threshold::Units(cosine)) => within(field, cosine, 0.0, 1.0),
+        Metric::DistanceTest(threshold) | Metric::FlatTest(threshold) | Metric::LengthTest(threshold) => {
+            let (Threshold::Units(value) | Threshold::Pixels(value)) = threshold;
+            positive(field, value)
+        }
     }
 }
 
@@ -205,6 +226,9 @@ fn check_surface(field: &str, surface: &SurfaceEntry, settings: &Settings) -> Ch
             }
         }
         Source::Terrain(terrain) => check_terrain(&source, terrain)?,
+        Source::Patches(patches) => check_patches(&source, patches)?,
+        Source::Nurbs(nurbs) => check_nurbs(&source, nurbs)?,
+        Source::Bezier(bezier) => check_bezier(&source, bezier)?,
     }
     check_shape(&format!("{field}.surface"), surface)?;
     let transform = format!("{field}.transform");
@@ -212,6 +236,14 @@ fn check_surface(field: &str, surface: &SurfaceEntry, settings: &Settings) -> Ch
     vector(&format!("{transform}.rotation"), surface.transform.rotation)?;
     positive(&format!("{transform}.scale"), surface.transform.scale)?;
     check_material(&format!("{field}.material"), &surface.material)?;
+    let is_patches = matches!(
+        surface.source,
+        Source::Patches(_) | Source::Nurbs(_) | Source::Bezier(_)
+    );
+    if is_patches && surface.material.texture.is_some() {
+        let problem = "Bézier and NURBS surfaces have no texture coordinates; expected none";
+        return Err(Problem::new(format!("{field}.material.texture"), problem));
+    }
     let SettingsOverrides {
         metric,
         max_level,

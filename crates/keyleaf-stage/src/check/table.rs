@@ -1,7 +1,6 @@
 //! The leaf table: open addressing with linear probing, one word an entry (`shaders/shared/table.wgsl`).
 
 use super::{FindingKind, Findings};
-use keyleaf::key::Place;
 use keyleaf::layout::{NO_ENTRY, place_hash};
 use keyleaf::read_back::Snapshot;
 

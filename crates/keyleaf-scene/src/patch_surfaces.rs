@@ -1,0 +1,141 @@
+//! Makes the Bézier and NURBS surfaces of a scene's entry, and says how they were joined.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use keyleaf_surface::{
+    BasisMethod, CornerAttributes, JoinReport, NurbsSurface, PatchKind, PatchSettings, Patches, Surface, Unjoined,
+};
+
+use crate::error::{FilePlace, ImportError};
+use crate::material::SurfaceMaterial;
+use crate::note::Note;
+use crate::patch::{PatchFileOptions, read_patches};
+use crate::scene::{BezierSource, Colouring, NurbsSource, PatchesSource, Problem, bezier_surface};
+use crate::surfaces::{Failure, Made};
+
+/// The surfaces of a file.
+pub(crate) fn of_file(folder: &Path, source: &PatchesSource, notes: &mut Vec<Note>) -> Result<Made, Failure> {
+    let file = folder.join(&source.path);
+    let options = PatchFileOptions {
+        ignore_trims: source.ignore_trims,
+    };
+    let model = read_patches(&file, &options).map_err(Failure::of("source.path"))?;
+    notes.extend(model.notes);
+    let kind = match source.basis {
+        None if model.is_bezier => PatchKind::Bezier,
+        basis => PatchKind::Nurbs(basis.unwrap_or_default().into()),
+    };
+    let mut made = join(&file, model.surfaces, source.tolerance, kind, notes)?;
+    made.files.push(file);
+    Ok(made)
+}
+
+/// NURBS surfaces of the scene file `file`.
+pub(crate) fn of_nurbs(file: &Path, source: &NurbsSource, notes: &mut Vec<Note>) -> Result<Made, Failure> {
+    let surfaces = source.surfaces.iter().map(|patch| patch.surface());
+    let kind = PatchKind::Nurbs(BasisMethod::from(source.basis));
+    join(file, written(file, surfaces)?, source.tolerance, kind, notes)
+}
+
+/// Bézier patches of the scene file `file`.
+pub(crate) fn of_bezier(file: &Path, source: &BezierSource, notes: &mut Vec<Note>) -> Result<Made, Failure> {
+    let surfaces = source.patches.iter().map(|rows| bezier_surface(rows));
+    join(
+        file,
+        written(file, surfaces)?,
+        source.tolerance,
+        PatchKind::Bezier,
+        notes,
+    )
+}
+
+/// What validation has accepted.
+fn written(
+    file: &Path,
+    surfaces: impl Iterator<Item = Result<NurbsSurface, Problem>>,
+) -> Result<Vec<NurbsSurface>, Failure> {
+    let refused = |Problem { field, problem }| {
+        let reason = format!("{field}: {problem}");
+        Failure::of("source")(ImportError::malformed(file, FilePlace::Whole, reason))
+    };
+    surfaces.map(|surface| surface.map_err(refused)).collect()
+}
+
+fn join(
+    file: &Path,
+    surfaces: Vec<NurbsSurface>,
+    tolerance: f64,
+    kind: PatchKind,
+    notes: &mut Vec<Note>,
+) -> Result<Made, Failure> {
+    let patches = Patches::new(surfaces, PatchSettings { tolerance, kind });
+    let patches = patches
+        .map_err(|error| ImportError::malformed(file, FilePlace::Whole, error.to_string()))
+        .map_err(Failure::of("source"))?;
+    tell(file, patches.report(), notes);
+    let shown = patches.bounding_box();
+    Ok(Made {
+        surface: Arc::new(patches),
+        corners: CornerAttributes::default(),
+        material: SurfaceMaterial::default(),
+        colouring: Colouring::Plain,
+        shown,
+        is_ground: false,
+        spacing: None,
+        files: Vec::new(),
+    })
+}
+
+/// Notes about the joins.
+fn tell(file: &Path, report: &JoinReport, notes: &mut Vec<Note>) {
+    let JoinReport {
+        exact,
+        snapped,
+        largest_move,
+        unjoined,
+        poles,
+        transposed,
+    } = report;
+    let mut remark = |text: String| notes.push(Note::remark(file, text));
+    let joined = exact + snapped;
+    if joined > 0 {
+        remark(format!(
+            "pairs of boundaries joined: {joined} ({exact} equal, {snapped} within the tolerance, control points moved by at most \
+             {largest_move:e})"
+        ));
+    }
+    let count = |why: Unjoined| unjoined.iter().filter(|(_, reason)| *reason == why).count();
+    match count(Unjoined::Free) {
+        0 => {}
+        free => remark(format!(
+            "boundaries open because no other has the same curve with the same knots: {free}"
+        )),
+    }
+    if !poles.is_empty() {
+        remark(format!(
+            "points into which boundaries collapse (poles): {}",
+            poles.len()
+        ));
+    }
+    if !transposed.is_empty() {
+        let number = transposed.len();
+        remark(format!(
+            "surfaces with u and v exchanged, so that neighbours have the same side up: {number}"
+        ));
+    }
+    match count(Unjoined::Crowded) {
+        0 => {}
+        crowded => notes.push(Note::warning(
+            file,
+            format!("boundaries open because two others with the same curve are joined already: {crowded}"),
+        )),
+    }
+    match count(Unjoined::NotOrientable) {
+        0 => {}
+        turned => notes.push(Note::warning(
+            file,
+            format!("boundaries open because the joined surface would have one side only: {turned}"),
+        )),
+    }
+}

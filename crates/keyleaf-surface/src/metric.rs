@@ -1,0 +1,180 @@
+//! How coarse a leaf is, before the view counts. Twin of `shaders/metrics`.
+
+use crate::{Surface, diamond};
+use glam::DVec3;
+use keyleaf_key::{MAX_LEVEL, ONE, Place, RootPoint, neighbour};
+
+/// What the size of a leaf is. Both halves of a diamond have the same.
+///
+/// ```
+/// use keyleaf_key::Place;
+/// use keyleaf_surface::{CornerAttributes, Mesh, MetricSize, PolygonMesh, Surface};
+/// let square = PolygonMesh {
+///     positions: [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, -1.0], [0.0, 0.0, -1.0]].map(Into::into).to_vec(),
+///     faces: [[0, 1, 2, 3]].into_iter().collect(),
+///     corners: CornerAttributes::default(),
+/// };
+/// let square = Mesh::new(&square)?;
+/// let root = Place::of_root(0, 0);
+/// assert_eq!(MetricSize::LengthTest.of(&square, &root), 0.5);
+/// assert_eq!(MetricSize::DistanceTest.of(&square, &root), 0.0); // flat
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MetricSize {
+    /// `SurfaceBound::size`: half the length of an edge, from above. Object units.
+    Edge,
+    /// √2 · 2^−level (Khoury 2.1).
+    Distance,
+    /// `SurfaceBound::deviation`. Object units.
+    Deviation,
+    /// [`Edge`](Self::Edge), times a factor beside open boundaries (Concheiro 6.10).
+    Boundary(f64),
+    /// The length of the curves of the root, over 2^level (Concheiro 6.8). Object units.
+    LocalArea,
+    /// The distance of the surface from the triangle at six points (Concheiro 6.9). Object units.
+    LinearApproximation,
+    /// The distance of the middles of the edges from the triangle (Concheiro 3.2.2). Object units.
+    DistanceTest,
+    /// One minus the cosine between an edge and the way to the surface beside it (Concheiro 3.2.2).
+    FlatTest,
+    /// The distance of the surface from the edges, at the same samples. Object units.
+    FlatTestPixels,
+    /// Half the length of the longest edge (Concheiro 3.2.2). Object units.
+    LengthTest,
+}
+
+/// A leaf whose surface is sampled at quarters of its legs.
+struct Samples<'a> {
+    surface: &'a dyn Surface,
+    leaf: Place,
+}
+
+/// O, R and U in quarters of the legs.
+const CORNERS: [[u32; 2]; 3] = [[0, 0], [4, 0], [0, 4]];
+
+impl Samples<'_> {
+    fn at(&self, [a, b]: [u32; 2]) -> DVec3 {
+        let quarter = self.leaf.unit() / 4;
+        self.surface.point(self.leaf.at(quarter * a, quarter * b))
+    }
+
+    /// A point of edge `i`, in quarters from its start.
+    fn on_edge(&self, [from, to]: [[u32; 2]; 2], quarters: u32) -> DVec3 {
+        self.at([0, 1].map(|axis| (from[axis] * (4 - quarters) + to[axis] * quarters) / 4))
+    }
+
+    /// The largest of a value of the three edges.
+    fn over_edges(&self, value: impl Fn([[u32; 2]; 2]) -> f64) -> f64 {
+        [[2, 0], [0, 1], [1, 2]]
+            .map(|ends| value(ends.map(|corner: usize| CORNERS[corner])))
+            .into_iter()
+            .fold(0.0, f64::max)
+    }
+
+    /// The largest of a value of an edge and the way from its end to the surface, at both quarters and from both ends.
+    fn flat(&self, value: impl Fn(DVec3, DVec3) -> f64) -> f64 {
+        self.over_edges(|edge| {
+            let [from, to] = edge.map(|end| self.at(end));
+            [1, 3]
+                .map(|quarters| self.on_edge(edge, quarters))
+                .map(|between| value(to - from, between - from).max(value(from - to, between - to)))
+                .into_iter()
+                .fold(0.0, f64::max)
+        })
+    }
+
+    fn linear_approximation(&self) -> f64 {
+        let [o, r, u] = CORNERS.map(|corner| self.at(corner));
+        [[2, 2], [0, 2], [2, 0], [1, 1], [2, 1], [1, 2]]
+            .map(|at| {
+                let [a, b] = at.map(|quarters| f64::from(quarters) / 4.0);
+                (self.at(at) - o - (r - o) * a - (u - o) * b).length()
+            })
+            .into_iter()
+            .fold(0.0, f64::max)
+    }
+}
+
+/// One minus the cosine between two directions; 0 where there is none.
+fn turn(edge: DVec3, arm: DVec3) -> f64 {
+    let lengths = edge.length() * arm.length();
+    if lengths > 0.0 {
+        let sine = edge.cross(arm).length() / lengths;
+        sine * sine / (1.0 + edge.dot(arm).abs() / lengths)
+    } else {
+        0.0
+    }
+}
+
+/// How far the end of `arm` is from the line of `edge`.
+fn distance_from_line(edge: DVec3, arm: DVec3) -> f64 {
+    edge.try_normalize()
+        .map_or(arm.length(), |along| along.cross(arm).length())
+}
+
+/// The length of the mesh edge of a root, or twice that of the way from its middle to the centre.
+fn root_extent(surface: &dyn Surface, root: &Place) -> f64 {
+    let length = |point: &dyn Fn(u32) -> [u32; 2]| -> f64 {
+        let at = |k| {
+            let [x, y] = point(k);
+            surface.point(RootPoint {
+                face: root.face,
+                root: root.root,
+                x,
+                y,
+            })
+        };
+        (0..4).map(|k| at(k).distance(at(k + 1))).sum()
+    };
+    let along = length(&|k| [ONE - k * (ONE / 4), k * (ONE / 4)]);
+    let inwards = length(&|k| [ONE / 2 - k * (ONE / 8); 2]);
+    along.max(2.0 * inwards)
+}
+
+impl MetricSize {
+    /// The size of a leaf. Leaves so deep that quarters of their legs have no coordinates are 0 to metrics that sample.
+    pub fn of(self, surface: &dyn Surface, leaf: &Place) -> f64 {
+        let topology = surface.topology();
+        let root = Place::of_root(leaf.face, leaf.root);
+        match self {
+            Self::Edge => surface.bound(leaf).size,
+            Self::Distance => std::f64::consts::SQRT_2 * diamond::level_scale(leaf.level),
+            Self::Deviation => surface.bound(leaf).deviation,
+            Self::Boundary(factor) => {
+                let is_open = topology.twin(leaf.face, leaf.root).is_none();
+                let size = surface.bound(leaf).size;
+                if is_open && diamond::touches_edge(leaf) {
+                    size * factor
+                } else {
+                    size
+                }
+            }
+            Self::LocalArea => {
+                let other = neighbour::h(topology, root);
+                let extent = other.iter().map(|other| root_extent(surface, other));
+                extent.fold(root_extent(surface, &root), f64::max) * diamond::level_scale(leaf.level)
+            }
+            _ if leaf.level + 2 > MAX_LEVEL => 0.0,
+            _ => {
+                let other = neighbour::h(topology, *leaf);
+                let sizes = other.iter().map(|other| self.of_half(surface, *other));
+                sizes.fold(self.of_half(surface, *leaf), f64::max)
+            }
+        }
+    }
+
+    fn of_half(self, surface: &dyn Surface, leaf: Place) -> f64 {
+        let samples = Samples { surface, leaf };
+        match self {
+            Self::LinearApproximation => samples.linear_approximation(),
+            Self::DistanceTest => samples.over_edges(|edge| {
+                let [from, to] = edge.map(|end| samples.at(end));
+                samples.on_edge(edge, 2).distance(from.midpoint(to))
+            }),
+            Self::FlatTest => samples.flat(turn),
+            Self::FlatTestPixels => samples.flat(distance_from_line),
+            _ => samples.over_edges(|[from, to]| samples.at(from).distance(samples.at(to)) / 2.0),
+        }
+    }
+}

@@ -30,48 +30,70 @@ var<workgroup> near: atomic<u32>;
 var<workgroup> bases: vec3u; // where the workgroup's part of each list begins
 var<workgroup> histogram: array<atomic<u32>, 32>;
 
-// Is a ball outside one of six planes? `first`: CULLING or GUARD.
-fn is_outside(first: u32, centre: vec3f, radius: f32) -> bool {
-    var nearest = dot(frame.planes[first].xyz, centre) + frame.planes[first].w;
-    for (var i = 1u; i < 6u; i++) {
-        let plane = frame.planes[first + i];
-        nearest = min(nearest, dot(plane.xyz, centre) + plane.w);
+// What an update reads once for all leaves of an invocation.
+struct Terms {
+    eye: vec3f,
+    scale: f32,        // metric over threshold of size 1 at distance 1, under pressure
+    world_from_object: mat3x3f,
+    near: f32,
+    guard_factor: f32,
+    without_distance: bool,
+    has_requests: bool,
+    counts_near: bool,
+    culling: array<vec4f, 6>,
+    guard: array<vec4f, 6>,
+}
+
+fn terms(has_requests: bool) -> Terms {
+    var t: Terms;
+    t.eye = frame.eye;
+    t.scale = frame.wish_scale * exp2(f32(-control.pressure) / 16.0);
+    let m = frame.world_from_object;
+    t.world_from_object = mat3x3f(m[0].xyz, m[1].xyz, m[2].xyz);
+    t.near = frame.near;
+    t.guard_factor = frame.guard_factor;
+    t.without_distance = frame.without_distance == 1u;
+    t.has_requests = has_requests;
+    t.counts_near = control.pressure > 0;
+    for (var i = 0u; i < 6u; i++) {
+        t.culling[i] = frame.planes[CULLING + i];
+        t.guard[i] = frame.planes[GUARD + i];
     }
-    return nearest < -radius;
+    return t;
+}
+
+// Is a ball outside one of six planes?
+fn is_outside(planes: array<vec4f, 6>, centre: vec3f, radius: f32) -> bool {
+    let at = vec4f(centre, 1.0);
+    let sides = min(min(dot(planes[0], at), dot(planes[1], at)), min(dot(planes[2], at), dot(planes[3], at)));
+    return min(sides, min(dot(planes[4], at), dot(planes[5], at))) < -radius;
 }
 
 // Metric over threshold; more than 1 asks for a split. `centre` is relative to the eye, in object space. Clamped at the near plane,
 // so that a camera on the surface gets a finite wish.
-fn wish(centre: vec3f, size: f32, guard: f32, scale: f32) -> f32 {
-    let there = (frame.world_from_object * vec4f(centre, 0.0)).xyz;
-    let distance = select(max(sqrt(dot(there, there)), frame.near), 1.0, frame.without_distance == 1u);
-    let inside = size * scale / distance;
-    return quantise(select(inside, inside * frame.guard_factor, is_outside(GUARD, centre, guard)));
+fn wish(centre: vec3f, size: f32, guard: f32, t: Terms) -> f32 {
+    let there = t.world_from_object * centre;
+    let distance = select(max(sqrt(dot(there, there)), t.near), 1.0, t.without_distance);
+    let inside = size * t.scale / distance;
+    return quantise(select(inside, inside * t.guard_factor, is_outside(t.guard, centre, guard)));
 }
 
-// What an update knows before it looks at leaves.
-struct Pass {
-    scale: f32,        // metric over threshold of size 1 at distance 1, under pressure
-    has_requests: bool,
-    counts_near: bool,
-}
-
-fn publish(slot: u32, terms: Pass) -> u32 {
+fn publish(slot: u32, t: Terms) -> u32 {
     let measure = measures[slot];
     let before = state[slot];
     let digit = state_digit(before);
-    let centre = measure.centre - frame.eye;
+    let centre = measure.centre - t.eye;
     var parent = vec4f(0.0);
     if (digit & 1u) == 0u {
-        parent = parents[slot] - vec4f(frame.eye, 0.0);
+        parent = parents[slot] - vec4f(t.eye, 0.0);
     }
-    var wanted = wish(centre, measure.size, measure.guard, terms.scale);
-    if terms.has_requests {
+    var wanted = wish(centre, measure.size, measure.guard, t);
+    if t.has_requests {
         wanted = max(wanted, bitcast<f32>(state[frame.capacity + slot]));
         state[frame.capacity + slot] = 0u;
     }
     let mature = (before & FRESH) == 0u;
-    let merges = mature && publishes_merge(digit) && wish(parent.xyz, measure.parent_size, parent.w, terms.scale) <= 1.0;
+    let merges = mature && publishes_merge(digit) && wish(parent.xyz, measure.parent_size, parent.w, t) <= 1.0;
     state[slot] = state_from_wish(wanted) | (before & (PAIR | (7u << DIGIT_SHIFT)))
         | select(0u, MATURE, mature) | select(0u, MERGE, merges);
 
@@ -79,10 +101,10 @@ fn publish(slot: u32, terms: Pass) -> u32 {
     let is_pair = (before & PAIR) != 0u;
     let hidden = is_pair && (digit & 1u) == 1u;
     let seen = select(vec4f(centre, measure.radius), vec4f(parent.xyz, measure.parent_radius), is_pair);
-    return select(0u, VISIBLE, !hidden && !is_outside(CULLING, seen.xyz, seen.w))
+    return select(0u, VISIBLE, !hidden && !is_outside(t.culling, seen.xyz, seen.w))
         | select(0u, SPLITTER, wanted > 1.0)
         | select(0u, MERGER, merges)
-        | select(0u, NEAR, terms.counts_near && wanted <= 1.0 && wanted > ONE_STEP_LOWER);
+        | select(0u, NEAR, t.counts_near && wanted <= 1.0 && wanted > ONE_STEP_LOWER);
 }
 
 // At most 512 of each.
@@ -102,12 +124,12 @@ fn update_leaves(group: u32, lane: u32, has_requests: bool) {
 
     let first = group * (GROUP_SIZE * LEAVES_PER_INVOCATION) + lane;
     let leaves = control.leaves;
-    let terms = Pass(frame.wish_scale * exp2(f32(-control.pressure) / 16.0), has_requests, control.pressure > 0);
+    let t = terms(has_requests);
     var emits = 0u;
     for (var i = 0u; i < LEAVES_PER_INVOCATION; i++) {
         let slot = first + i * GROUP_SIZE;
         if slot < leaves {
-            emits |= publish(slot, terms) << (4u * i);
+            emits |= publish(slot, t) << (4u * i);
         }
     }
     // Few leaves want to change: loops over those.
@@ -119,7 +141,7 @@ fn update_leaves(group: u32, lane: u32, has_requests: bool) {
     let counts = vec3u(countOneBits(emits & (OF_EACH * VISIBLE)), countOneBits(emits & (OF_EACH * SPLITTER)),
         countOneBits(emits & (OF_EACH * MERGER)));
     let before = unpacked(atomicAdd(&emitted, counts.x | (counts.y << 10u) | (counts.z << 20u)));
-    if terms.counts_near {
+    if t.counts_near {
         atomicAdd(&near, countOneBits(emits & (OF_EACH * NEAR)));
     }
     workgroupBarrier();
@@ -127,7 +149,7 @@ fn update_leaves(group: u32, lane: u32, has_requests: bool) {
         let all = unpacked(atomicLoad(&emitted));
         bases = vec3u(atomicAdd(&control.visible, all.x), frame.capacity + atomicAdd(&control.splitters, all.y),
             3u * frame.capacity + atomicAdd(&control.mergers, all.z));
-        if terms.counts_near {
+        if t.counts_near {
             atomicAdd(&control.near, atomicLoad(&near));
         }
     }

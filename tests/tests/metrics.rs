@@ -172,7 +172,12 @@ fn sampled_metrics_agree_with_their_twins_up_to_the_rounding_of_the_samples() {
         let (low, high) = surface.bounding_box();
         let largest = low.abs().max(high.abs()).max_element();
         for metric in metrics {
-            let mut world = World::new(&surface, settings(metric));
+            // Without the guard band: whether a ball touches it is a matter of rounding.
+            let settings = Settings {
+                guard_factor: 1.0,
+                ..settings(metric)
+            };
+            let mut world = World::new(&surface, settings);
             for view in views(&mut Random(5), surface.as_ref()) {
                 let snapshot = world.passes(&view, 12);
                 assert_eq!(snapshot.control.lost, 0);

@@ -13,11 +13,13 @@ use crate::run;
 use crate::table;
 
 /// Scenes of `scenes/`, in the order of the table.
-const SCENES: [&str; 9] = [
+const SCENES: [&str; 11] = [
     "terrain_real",
     "terrain_procedural",
     "fox",
     "several",
+    "goblet",
+    "pot",
     "mixed",
     "displaced",
     "cube",

@@ -3,6 +3,7 @@
 mod bad_input;
 mod flights;
 mod models;
+mod oracles;
 mod pictures;
 mod reports;
 

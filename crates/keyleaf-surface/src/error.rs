@@ -135,7 +135,7 @@ pub enum ParameterError {
         faces: u32,
     },
     /// Only surfaces with knots have parameters besides those of their faces.
-    #[error("the surface has no parameters of its own; give a face and its parameters")]
+    #[error("the surface has no parameters of its own; expected face,u,v")]
     NoOwnParameters,
     /// There is no such surface in the model.
     #[error("there is no surface {surface}: the model has {surfaces} surfaces, counted from 0")]

@@ -101,7 +101,7 @@ fn publish(slot: u32, t: Terms) -> u32 {
     let is_pair = (before & PAIR) != 0u;
     let hidden = is_pair && (digit & 1u) == 1u;
     let seen = select(vec4f(centre, measure.radius), vec4f(parent.xyz, measure.parent_radius), is_pair);
-    return select(0u, VISIBLE, !hidden && !is_outside(t.culling, seen.xyz, seen.w))
+    return select(0u, VISIBLE, !hidden && !is_outside(t.culling, seen.xyz, seen.w) && face_is_drawn(slot))
         | select(0u, SPLITTER, wanted > 1.0)
         | select(0u, MERGER, merges)
         | select(0u, NEAR, t.counts_near && wanted <= 1.0 && wanted > ONE_STEP_LOWER);

@@ -4,6 +4,10 @@
 
 @group(1) @binding(1) var<storage, read> topology: array<u32>;
 
+fn face_count() -> u32 {
+    return topology[0];
+}
+
 fn first_half_edge(face: u32) -> u32 {
     return topology[2u + face];
 }

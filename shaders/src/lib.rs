@@ -111,7 +111,7 @@ mod tests {
     #[test]
     fn every_file_in_the_folder_is_in_the_table_and_says_what_it_does() {
         let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
-        for folder in ["shared", "passes", "surfaces", "metrics", "draw", "effects"] {
+        for folder in ["shared", "passes", "surfaces", "metrics", "culling", "draw", "effects"] {
             for entry in std::fs::read_dir(root.join(folder)).unwrap() {
                 let name = format!("{folder}/{}", entry.unwrap().file_name().to_string_lossy());
                 let text = source(&name).unwrap_or_else(|| panic!("{name} is not in table.rs"));

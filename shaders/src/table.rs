@@ -2,6 +2,12 @@
 
 /// (path relative to the folder `shaders`, text) of every WGSL file, sorted by path.
 pub const FILES: &[(&str, &str)] = &[
+    (
+        "culling/conservative.wgsl",
+        include_str!("../culling/conservative.wgsl"),
+    ),
+    ("culling/light.wgsl", include_str!("../culling/light.wgsl")),
+    ("culling/strong.wgsl", include_str!("../culling/strong.wgsl")),
     ("draw/colour.wgsl", include_str!("../draw/colour.wgsl")),
     ("draw/emit.wgsl", include_str!("../draw/emit.wgsl")),
     ("draw/evaluate.wgsl", include_str!("../draw/evaluate.wgsl")),
@@ -78,6 +84,7 @@ pub const FILES: &[(&str, &str)] = &[
     ("passes/apply_alone.wgsl", include_str!("../passes/apply_alone.wgsl")),
     ("passes/compact.wgsl", include_str!("../passes/compact.wgsl")),
     ("passes/copy.wgsl", include_str!("../passes/copy.wgsl")),
+    ("passes/cull_faces.wgsl", include_str!("../passes/cull_faces.wgsl")),
     ("passes/decide.wgsl", include_str!("../passes/decide.wgsl")),
     ("passes/decide_alone.wgsl", include_str!("../passes/decide_alone.wgsl")),
     ("passes/flag.wgsl", include_str!("../passes/flag.wgsl")),
@@ -109,6 +116,8 @@ pub const FILES: &[(&str, &str)] = &[
     ("shared/diamond.wgsl", include_str!("../shared/diamond.wgsl")),
     ("shared/direction.wgsl", include_str!("../shared/direction.wgsl")),
     ("shared/displaced.wgsl", include_str!("../shared/displaced.wgsl")),
+    ("shared/faces_culled.wgsl", include_str!("../shared/faces_culled.wgsl")),
+    ("shared/faces_drawn.wgsl", include_str!("../shared/faces_drawn.wgsl")),
     ("shared/flat_samples.wgsl", include_str!("../shared/flat_samples.wgsl")),
     ("shared/frame.wgsl", include_str!("../shared/frame.wgsl")),
     ("shared/grid.wgsl", include_str!("../shared/grid.wgsl")),

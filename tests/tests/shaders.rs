@@ -3,7 +3,7 @@
 use keyleaf::draw::Sky;
 use keyleaf::inspect::Inspector;
 use keyleaf::shading::{Atmosphere, Channel, Material, Overlay};
-use keyleaf::{Balance, Kind, modules};
+use keyleaf::{BackFaces, Balance, Kind, modules};
 use keyleaf_shaders::{FILES, compose, dependencies};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use std::collections::BTreeSet;
@@ -24,8 +24,20 @@ pub fn kinds() -> Vec<Kind> {
                 surface,
                 metric,
                 balance,
+                back_faces: BackFaces::Drawn,
             }));
         }
+        kinds.extend(
+            BackFaces::ALL
+                .map(|back_faces| Kind {
+                    surface,
+                    metric: "metrics/edge.wgsl",
+                    balance: Balance::Table,
+                    back_faces,
+                })
+                .into_iter()
+                .filter(|kind| kind.validate().is_ok()),
+        );
     }
     kinds
 }

@@ -3,7 +3,7 @@
 use anyhow::{Context, bail, ensure};
 use clap::{Args, ValueEnum};
 use glam::{DVec3, UVec2};
-use keyleaf::{Metric, Settings, Threshold, View};
+use keyleaf::{BackFaces, Metric, Settings, Threshold, View};
 use keyleaf_stage::{LoadOptions, Loaded, load, view_of};
 use std::path::{Path, PathBuf};
 
@@ -53,6 +53,10 @@ pub struct Overrides {
     /// flat-test, length-test=VALUE in their own unit, or in pixels as 2px
     #[arg(long, value_name = "METRIC", value_parser = parse_metric)]
     pub metric: Option<Metric>,
+    /// Triangles seen from behind: drawn, hidden, or whole faces of Bézier and NURBS surfaces left out: light and strong (LQC and SQC of
+    /// Concheiro's thesis, both approximate) or conservative
+    #[arg(long, value_name = "HOW", value_parser = parse_back_faces)]
+    pub back_faces: Option<BackFaces>,
     /// Leaves that the buffers of a surface hold
     #[arg(long, value_name = "N")]
     pub capacity: Option<u32>,
@@ -125,6 +129,7 @@ impl Overrides {
             .map(|pixels| Metric::Edge { pixels })
             .or(self.metric)
             .unwrap_or(settings.metric);
+        settings.back_faces = self.back_faces.unwrap_or(settings.back_faces);
         settings.capacity = self.capacity.unwrap_or(settings.capacity);
         settings.target_leaves = settings.target_leaves.min(settings.capacity);
         if let Some(k) = self.base_grid {
@@ -222,6 +227,13 @@ fn parse_metric(text: &str) -> anyhow::Result<Metric> {
     })
 }
 
+fn parse_back_faces(text: &str) -> anyhow::Result<BackFaces> {
+    let all = BackFaces::ALL;
+    let names = || all.map(BackFaces::name).join(", ");
+    let found = all.into_iter().find(|how| how.name() == text);
+    found.with_context(|| format!("expected one of {}", names()))
+}
+
 /// A positive number of seconds.
 pub fn parse_seconds(text: &str) -> anyhow::Result<f64> {
     let seconds: f64 = text.parse().context("expected a number of seconds")?;
@@ -288,6 +300,7 @@ mod tests {
         let none = Overrides {
             pixels: None,
             metric: None,
+            back_faces: None,
             capacity: None,
             base_grid: None,
             max_level: None,

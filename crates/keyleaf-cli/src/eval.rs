@@ -69,6 +69,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
     let overrides = Overrides {
         pixels: None,
         metric: None,
+        back_faces: None,
         capacity: None,
         base_grid: None,
         max_level: None,

@@ -65,8 +65,13 @@ fn surface(surface: &PlannedSurface) -> String {
     } else {
         ""
     };
+    let back_faces = match (surface.back_faces.as_str(), surface.approximate) {
+        ("drawn", _) => String::new(),
+        (name, false) => format!(", back faces {name}"),
+        (name, true) => format!(", back faces {name} (approximate: visible parts may be missing)"),
+    };
     format!(
-        "surface {}: {}, metric {}{history}\n{} faces, {} roots, {} leaves at most ({:.1} bytes a leaf), level {} at most, {} \
+        "surface {}: {}, metric {}{history}{back_faces}\n{} faces, {} roots, {} leaves at most ({:.1} bytes a leaf), level {} at most, {} \
          triangles a leaf\n\n{}\n\n{}",
         surface.name,
         surface.surface,

@@ -4,7 +4,7 @@ use crate::stage::{colour, look_of, world_box};
 use glam::{DAffine3, DVec3, UVec2, Vec3};
 use keyleaf::draw::{ColourTexture, Look};
 use keyleaf::shading::{Material, Shading};
-use keyleaf::{Metric, Projection, Settings, Threshold, View};
+use keyleaf::{BackFaces, Metric, Projection, Settings, Threshold, View};
 use keyleaf_scene::scene::{CameraPath, Colouring, Culling, Effect, NamedCamera};
 use keyleaf_scene::{OpenError, OpenOptions, OpenedSurface, Scene};
 use keyleaf_surface::Surface;
@@ -129,6 +129,7 @@ fn object(opened: OpenedSurface) -> LoadedObject {
 
 /// The settings of a scene file as the library takes them.
 pub fn settings(scene: &keyleaf_scene::scene::Settings) -> Settings {
+    use keyleaf_scene::scene;
     use keyleaf_scene::scene::{Metric as Wanted, Threshold as WantedThreshold};
     let of = |threshold| match threshold {
         WantedThreshold::Units(value) => Threshold::Units(value as f32),
@@ -160,6 +161,13 @@ pub fn settings(scene: &keyleaf_scene::scene::Settings) -> Settings {
         guard_band: scene.guard_band.margin as f32,
         guard_factor: (1.0 / scene.guard_band.coarsen) as f32,
         cull: scene.culling == Culling::Frustum,
+        back_faces: match scene.back_faces {
+            scene::BackFaces::Drawn => BackFaces::Drawn,
+            scene::BackFaces::Hidden => BackFaces::Hidden,
+            scene::BackFaces::Light => BackFaces::Light,
+            scene::BackFaces::Strong => BackFaces::Strong,
+            scene::BackFaces::Conservative => BackFaces::Conservative,
+        },
         ..Settings::default()
     }
 }

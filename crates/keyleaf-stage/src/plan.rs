@@ -38,6 +38,10 @@ pub struct PlannedSurface {
     pub metric: String,
     /// Whether a settled result can depend on what came before.
     pub history_dependent: bool,
+    /// What is done with triangles that are seen from behind.
+    pub back_faces: String,
+    /// Whether something that can be seen may be missing.
+    pub approximate: bool,
     /// Faces of the control mesh.
     pub faces: u32,
     /// Roots: the fewest leaves.
@@ -138,6 +142,9 @@ fn surface(
     let topology = object.surface.topology();
     let tables = object.surface.tables(glam::DVec3::ZERO);
     add("topology", 4 * topology.gpu_words().len());
+    if kind.back_faces.shader().is_some() {
+        add("faces", 4 * topology.face_count() as usize);
+    }
     add("surface parameters", tables.params.len());
     add("surface A", 4 * tables.a.len());
     add("surface B", 4 * tables.b.len());
@@ -171,6 +178,8 @@ fn surface(
         surface: kind.surface.to_owned(),
         metric: object.settings.metric.name().to_owned(),
         history_dependent: !object.settings.metric.is_nested(),
+        back_faces: object.settings.back_faces.name().to_owned(),
+        approximate: object.settings.back_faces.is_approximate(),
         faces: topology.face_count(),
         roots: topology.half_edge_count(),
         capacity,

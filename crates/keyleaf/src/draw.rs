@@ -8,6 +8,7 @@ use crate::binding::{self, Binding};
 use crate::grid::GridBuffers;
 use crate::layout::arguments;
 use crate::passes::Kind;
+use crate::settings::BackFaces;
 use crate::shading::{Background, Channel, Shading};
 use crate::surface_buffers::surface_layout;
 use crate::{KeyleafError, Quadtree, View};
@@ -117,7 +118,10 @@ impl LeafPipeline {
                     }],
                 })],
             },
-            primitive: wgpu::PrimitiveState::default(),
+            primitive: wgpu::PrimitiveState {
+                cull_mode: (kind.back_faces != BackFaces::Drawn).then_some(wgpu::Face::Back),
+                ..Default::default()
+            },
             depth_stencil: Some(depth(target, wgpu::CompareFunction::Greater)),
             multisample: wgpu::MultisampleState {
                 count: target.samples,

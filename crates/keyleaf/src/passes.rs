@@ -2,7 +2,7 @@
 
 use crate::KeyleafError;
 use crate::binding::{self, Binding};
-use crate::settings::Balance;
+use crate::settings::{BackFaces, Balance};
 use crate::surface_buffers::surface_layout;
 use keyleaf_shaders::compose;
 
@@ -17,6 +17,26 @@ pub struct Kind {
     pub metric: &'static str,
     /// How neighbours are kept from cracking.
     pub balance: Balance,
+    /// What is done with triangles that are seen from behind.
+    pub back_faces: BackFaces,
+}
+
+impl Kind {
+    /// Refuses to cull the faces of a surface that has no control net.
+    ///
+    /// # Errors
+    /// [`KeyleafError::Setting`].
+    pub fn validate(&self) -> Result<(), KeyleafError> {
+        let has_net = keyleaf_shaders::dependencies(&[self.surface])?.contains(&"shared/patch.wgsl");
+        if self.back_faces.shader().is_some() && !has_net {
+            return Err(KeyleafError::Setting {
+                setting: "back_faces",
+                value: self.back_faces.name().to_owned(),
+                expected: "expected drawn or hidden: only Bézier and NURBS surfaces have control nets to cull by",
+            });
+        }
+        Ok(())
+    }
 }
 
 /// One module of the update: its name, the WGSL files it is composed of, the bindings of its group 0 and its entry points.
@@ -44,6 +64,8 @@ pub fn modules(kind: &Kind) -> Vec<Module> {
         entries,
     };
     const UPDATE: &[Binding] = &[Uniform, Read, Read, Write, Write, Write];
+    const UPDATE_CULLED: &[Binding] = &[Uniform, Read, Read, Write, Write, Write, Read, Read];
+    const CULL: &[Binding] = &[Uniform, Write];
     const DECIDE: &[Binding] = &[Uniform, Read, Read, Write, Write, Write];
     const APPLY: &[Binding] = &[Uniform, Write, Write, Write, Write, Write];
     const MEASURE: &[Binding] = &[Uniform, Read, Write, Write, Read, Write];
@@ -58,11 +80,15 @@ pub fn modules(kind: &Kind) -> Vec<Module> {
             &["passes/apply_alone.wgsl"],
         ),
     };
+    let (faces, update) = match kind.back_faces.shader() {
+        Some(_) => ("shared/faces_culled.wgsl", UPDATE_CULLED),
+        None => ("shared/faces_drawn.wgsl", UPDATE),
+    };
     let mut all = vec![
         module(
             "update",
-            &["passes/update.wgsl", speaker],
-            UPDATE,
+            &["passes/update.wgsl", speaker, faces],
+            update,
             false,
             &["update", "update_requested"],
         ),
@@ -90,6 +116,10 @@ pub fn modules(kind: &Kind) -> Vec<Module> {
             &["copy_changes", "copy_leaves", "copy_counts"],
         ),
     ];
+    if let Some(culling) = kind.back_faces.shader() {
+        let files = &["passes/cull_faces.wgsl", culling, kind.surface];
+        all.push(module("cull", files, CULL, true, &["cull_faces"]));
+    }
     if kind.balance == Balance::Table {
         all.push(module(
             "flag",
@@ -129,8 +159,9 @@ impl Passes {
     /// Compiles the pipelines. Takes some tens of milliseconds a module; do it once a kind and share.
     ///
     /// # Errors
-    /// [`KeyleafError::Compose`] if a shader file is missing.
+    /// [`KeyleafError::Compose`] if a shader file is missing, [`KeyleafError::Setting`] if the surface has no patches to cull.
     pub fn new(device: &wgpu::Device, kind: Kind) -> Result<Self, KeyleafError> {
+        kind.validate()?;
         let surface_layout = surface_layout(device, kind.surface)?;
         let mut stages = Vec::new();
         for module in modules(&kind) {

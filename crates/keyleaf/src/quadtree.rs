@@ -22,6 +22,7 @@
 //! | `copy_leaves` | 1 | the new count, arguments |
 //! | `match_slots`, `move_leaves` | freed slots | compaction |
 //! | `clear_table`, `enter_leaves` | entries, leaves | only when the table is too full |
+//! | `cull_faces` | faces | only where back faces are culled: which may be seen |
 //! | `update` | 1 for 8 leaves | publishes wishes, culls, lists |
 //! | `copy_counts` | 1 | admission, pressure, arguments |
 
@@ -48,6 +49,8 @@ pub(crate) struct Buffers {
     pub state: wgpu::Buffer,
     pub lists: wgpu::Buffer,
     pub table: wgpu::Buffer,
+    /// Where back faces are culled.
+    pub faces: Option<wgpu::Buffer>,
     pub control: wgpu::Buffer,
     pub arguments: wgpu::Buffer,
 }
@@ -75,6 +78,7 @@ struct Groups {
     compact: wgpu::BindGroup,
     copy: wgpu::BindGroup,
     rebuild: Option<wgpu::BindGroup>,
+    cull: Option<wgpu::BindGroup>,
 }
 
 /// The parts of a pass, in their order: the rows of the table above.
@@ -115,6 +119,7 @@ impl Quadtree {
             surface: surface.shader(),
             metric: settings.metric.shader(),
             balance: settings.balance,
+            back_faces: settings.back_faces,
         }
     }
 
@@ -134,7 +139,8 @@ impl Quadtree {
         check_capacity(device, surface.as_ref(), settings.capacity)?;
         let surface_buffers =
             SurfaceBuffers::new(device, queue, &passes.surface_layout, surface.as_ref(), DVec3::ZERO)?;
-        let buffers = Buffers::new(device, settings.capacity);
+        let culled = settings.back_faces.shader().map(|_| surface.topology().face_count());
+        let buffers = Buffers::new(device, settings.capacity, culled);
         let groups = Groups::new(device, &passes, &buffers);
         let mut quadtree = Self {
             passes,
@@ -199,6 +205,9 @@ impl Quadtree {
         }
         if settings.balance != self.settings.balance {
             return fixed("balance", format!("{:?}", settings.balance));
+        }
+        if settings.back_faces != self.settings.back_faces {
+            return fixed("back_faces", settings.back_faces.name().to_owned());
         }
         self.needs_measure |= settings.max_level != self.settings.max_level
             || settings.base_grid != self.settings.base_grid
@@ -388,10 +397,21 @@ impl Quadtree {
                 }
             }
             Phase::Update => {
+                if let Some(cull) = &groups.cull {
+                    self.cull_faces(pass, cull);
+                }
                 self.dispatch(pass, "update", 0, &groups.update, arguments::UPDATE);
                 self.dispatch(pass, "update", 1, &groups.update, arguments::UPDATE_REQUESTED);
                 self.dispatch_one(pass, "copy", 2, &groups.copy);
             }
+        }
+    }
+
+    fn cull_faces(&self, pass: &mut wgpu::ComputePass<'_>, group: &wgpu::BindGroup) {
+        if self.bind(pass, "cull", 0, group).is_some() {
+            let faces = self.surface.topology().face_count();
+            let [x, y, z] = layout::groups_for(faces, layout::GROUP_SIZE);
+            pass.dispatch_workgroups(x, y, z);
         }
     }
 
@@ -435,6 +455,7 @@ impl Quadtree {
         all.push(("frame", self.buffers.frame.size()));
         all.push(("control", self.buffers.control.size()));
         all.push(("arguments", self.buffers.arguments.size()));
+        all.extend(self.buffers.faces.iter().map(|faces| ("faces", faces.size())));
         all.extend(self.surface_buffers.sizes.iter().copied());
         all
     }
@@ -480,7 +501,7 @@ fn check_capacity(device: &wgpu::Device, surface: &dyn Surface, capacity: u32) -
 }
 
 impl Buffers {
-    fn new(device: &wgpu::Device, capacity: u32) -> Self {
+    fn new(device: &wgpu::Device, capacity: u32, culled_faces: Option<u32>) -> Self {
         use wgpu::BufferUsages as U;
         let make = |label: &str, size: u64, usage: U| {
             device.create_buffer(&wgpu::BufferDescriptor {
@@ -507,6 +528,7 @@ impl Buffers {
             state: sized("state"),
             lists: sized("lists"),
             table: sized("table"),
+            faces: culled_faces.map(|faces| make("keyleaf.faces", (4 * u64::from(faces)).max(16), storage)),
             control: make("keyleaf.control", size_of::<Control>() as u64, storage),
             arguments: make("keyleaf.arguments", arguments::SIZE, storage | U::INDIRECT),
         }
@@ -535,18 +557,23 @@ impl Groups {
             (4, &b.lists),
             (5, &b.control),
         ];
+        let mut update = vec![
+            (0, &b.frame),
+            (1, &b.measures),
+            (2, &b.parents),
+            (3, &b.state),
+            (4, &b.lists),
+            (5, &b.control),
+        ];
+        if let Some(faces) = &b.faces {
+            update.extend([(6, &b.leaves), (7, faces)]);
+        }
         Self {
-            update: required(
-                "update",
-                &[
-                    (0, &b.frame),
-                    (1, &b.measures),
-                    (2, &b.parents),
-                    (3, &b.state),
-                    (4, &b.lists),
-                    (5, &b.control),
-                ],
-            ),
+            update: required("update", &update),
+            cull: b
+                .faces
+                .as_ref()
+                .and_then(|faces| group("cull", &[(0, &b.frame), (1, faces)])),
             decide: required("decide", &leaves_on),
             apply: required("apply", &leaves_on),
             measure: required(

@@ -222,6 +222,57 @@ pub struct Settings {
     pub cull: bool,
     /// How neighbours are kept from cracking.
     pub balance: Balance,
+    /// What is done with triangles that are seen from behind.
+    pub back_faces: BackFaces,
+}
+
+/// What is done with triangles that are seen from behind. All but [`BackFaces::Drawn`] are for closed surfaces, whose objects are
+/// not mirrored; of open ones the inside vanishes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum BackFaces {
+    /// They are drawn.
+    #[default]
+    Drawn,
+    /// They are not drawn.
+    Hidden,
+    /// As [`Hidden`](Self::Hidden), and whole faces are left out whose corners face away (Concheiro 6.11, LQC). Approximate: a face that
+    /// bulges towards the eye may be missing. For Bézier and NURBS surfaces, as are those below.
+    Light,
+    /// The same by all squares of the control net, as printed (Concheiro 6.12, SQC). Not conservative either.
+    Strong,
+    /// The same by a cone of all normals that the face can have: never changes a pixel.
+    Conservative,
+}
+
+impl BackFaces {
+    /// All, from the plainest on.
+    pub const ALL: [Self; 5] = [Self::Drawn, Self::Hidden, Self::Light, Self::Strong, Self::Conservative];
+
+    /// The WGSL file that defines `face_is_back`, where faces are culled.
+    pub fn shader(self) -> Option<&'static str> {
+        match self {
+            Self::Drawn | Self::Hidden => None,
+            Self::Light => Some("culling/light.wgsl"),
+            Self::Strong => Some("culling/strong.wgsl"),
+            Self::Conservative => Some("culling/conservative.wgsl"),
+        }
+    }
+
+    /// The name that `plan` and the program use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Drawn => "drawn",
+            Self::Hidden => "hidden",
+            Self::Light => "light",
+            Self::Strong => "strong",
+            Self::Conservative => "conservative",
+        }
+    }
+
+    /// Whether something that can be seen may be missing.
+    pub fn is_approximate(self) -> bool {
+        matches!(self, Self::Light | Self::Strong)
+    }
 }
 
 /// How neighbours are kept from cracking.
@@ -247,6 +298,7 @@ impl Default for Settings {
             guard_factor: 0.125,
             cull: true,
             balance: Balance::Table,
+            back_faces: BackFaces::Drawn,
         }
     }
 }

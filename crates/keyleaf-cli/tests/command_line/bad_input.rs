@@ -73,7 +73,10 @@ fn bad_points_are_refused_with_file_and_line() {
         ("face,u,v\n0,1.5,0\n", &["in.csv:2", "1.5"]),
         ("face,u,v\n0,1\n", &["in.csv:2", "3"]),
         ("face,u\n0,0\n", &["in.csv:1", "`v`", "face,u,v or surface,s,t"]),
-        ("surface,s,t\n0,0,0\n", &["in.csv:2", "no parameters of its own", "face,u,v"]),
+        (
+            "surface,s,t\n0,0,0\n",
+            &["in.csv:2", "no parameters of its own", "face,u,v"],
+        ),
         ("", &["in.csv", "empty"]),
     ] {
         folder.write("in.csv", points);

@@ -58,7 +58,7 @@ pub(crate) use error::{Problem, reference};
 pub use light::{Effect, Fog, Light};
 pub(crate) use patches::bezier_surface;
 pub use patches::{Basis, BezierSource, NurbsPatch, NurbsSource, PatchesSource};
-pub use settings::{Culling, GuardBand, Metric, Settings, SettingsOverrides, Threshold};
+pub use settings::{BackFaces, Culling, GuardBand, Metric, Settings, SettingsOverrides, Threshold};
 pub use surface::{
     Colouring, DisplacedSource, DisplacementHeight, HeightFieldSource, Interpolation, Material, NoiseHeight, Shape,
     Source, SurfaceEntry, TerrainColours, TerrainSource, TextureHeight, Transform,

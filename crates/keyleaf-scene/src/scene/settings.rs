@@ -24,6 +24,8 @@ pub struct Settings {
     pub guard_band: GuardBand,
     /// Which leaves are not drawn. Default `Frustum`.
     pub culling: Culling,
+    /// What is done with triangles that are seen from behind. Default `Drawn`.
+    pub back_faces: BackFaces,
 }
 
 impl Default for Settings {
@@ -37,6 +39,7 @@ impl Default for Settings {
             max_level: None,
             guard_band: GuardBand::default(),
             culling: Culling::default(),
+            back_faces: BackFaces::default(),
         }
     }
 }
@@ -48,6 +51,7 @@ impl Settings {
             metric: overrides.metric.unwrap_or(self.metric),
             max_level: overrides.max_level.or(self.max_level),
             culling: overrides.culling.unwrap_or(self.culling),
+            back_faces: overrides.back_faces.unwrap_or(self.back_faces),
             ..self.clone()
         }
     }
@@ -174,6 +178,23 @@ pub enum Culling {
     Off,
 }
 
+/// What is done with triangles that are seen from behind. All but `Drawn` are for closed surfaces: of open ones the inside vanishes.
+/// The last three leave out whole faces of Bézier and NURBS surfaces, for other surfaces they are refused.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum BackFaces {
+    /// They are drawn.
+    #[default]
+    Drawn,
+    /// They are not drawn.
+    Hidden,
+    /// Faces whose four corners face away are left out (Concheiro 6.11, LQC). Approximate: what bulges may be missing.
+    Light,
+    /// Faces of whose control net all squares face away are left out (Concheiro 6.12, SQC as printed). Approximate as well.
+    Strong,
+    /// Faces that cannot face the eye are left out, by a cone of their normals. Changes no pixel.
+    Conservative,
+}
+
 /// Settings that a surface has for itself; what is `None` is as in the scene.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -184,4 +205,6 @@ pub struct SettingsOverrides {
     pub max_level: Option<u32>,
     /// See [`Settings::culling`].
     pub culling: Option<Culling>,
+    /// See [`Settings::back_faces`].
+    pub back_faces: Option<BackFaces>,
 }

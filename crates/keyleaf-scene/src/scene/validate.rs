@@ -248,6 +248,7 @@ fn check_surface(field: &str, surface: &SurfaceEntry, settings: &Settings) -> Ch
         metric,
         max_level,
         culling: _,
+        back_faces: _,
     } = surface.settings;
     optional(&format!("{field}.settings.metric"), metric, check_metric)?;
     check_max_level(&format!("{field}.settings.max_level"), max_level, settings)

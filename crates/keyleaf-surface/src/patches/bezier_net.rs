@@ -86,6 +86,28 @@ impl BezierNet {
         [low, high]
     }
 
+    /// Vectors of which the tangents in u, and in v, are sums with weights that are not negative; none where a weight is not positive.
+    /// Differences of neighbours in one line, or, where weights differ, in any two lines.
+    pub fn tangents(&self) -> Option<[Vec<DVec3>; 2]> {
+        let [least, greatest] = self.weights();
+        if least <= 0.0 {
+            return None;
+        }
+        let is_rational = greatest - least > 1e-12 * greatest;
+        let points: Vec<DVec3> = self.controls.iter().map(|c| c.truncate() / c.w).collect();
+        let stride = [1, self.degree[0] + 1];
+        Some([0, 1].map(|axis| {
+            let lines = 0..=self.degree[1 - axis];
+            let pairs = lines.clone().flat_map(|a| lines.clone().map(move |b| (a, b)));
+            let pairs: Vec<_> = pairs.filter(|(a, b)| is_rational || a == b).collect();
+            let place = |k: usize, line: usize| k * stride[axis] + line * stride[1 - axis];
+            let steps = (0..self.degree[axis]).flat_map(|k| pairs.iter().map(move |&(a, b)| (k, a, b)));
+            steps
+                .map(|(k, a, b)| points[place(k + 1, a)] - points[place(k, b)])
+                .collect()
+        }))
+    }
+
     /// Bounds over the net, in parameters in which it has the given size.
     ///
     /// With A = w (P − c) about the net's own centre: S_u = (A_u − W_u (S − c)) / W, S_uv = (A_uv − W_uv (S − c) − W_u S_v − W_v S_u) / W

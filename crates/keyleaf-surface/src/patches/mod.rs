@@ -16,7 +16,7 @@
 //! | `layout` | KSQuads, sides, tears |
 //! | `boundary`, `join`, `orientation`, `weld` | which boundaries are the same curve |
 //! | `addresses` | one address for every edge, corner and pole |
-//! | `bezier_net`, `bound` | bounds |
+//! | `bezier_net`, `bound`, `normal_cone` | bounds |
 //! | `tables` | what the GPU reads |
 
 mod addresses;
@@ -30,6 +30,7 @@ mod evaluation;
 mod join;
 mod layout;
 mod normal;
+mod normal_cone;
 mod nurbs_surface;
 mod orientation;
 mod report;
@@ -53,8 +54,10 @@ use glam::DVec3;
 use join::Joined;
 use keyleaf_key::{MAX_LEVEL, Place, RootPoint, Topology};
 use layout::Layout;
+use normal_cone::NormalCone;
 use span::Fraction;
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 /// The most control points of a row and of a model, for which the tables have room.
 const MAX_ROW: usize = (1 << 24) - 1;
@@ -132,6 +135,8 @@ pub struct Patches {
     /// How far the curves of a joined edge are apart.
     mismatch: f64,
     report: JoinReport,
+    /// By face; made when the tables are.
+    cones: OnceLock<Vec<Option<NormalCone>>>,
 }
 
 impl Patches {
@@ -179,9 +184,19 @@ impl Patches {
             bounds,
             mismatch,
             report,
+            cones: OnceLock::new(),
         };
         patches.report.poles = patches.poles();
         Ok(patches)
+    }
+
+    /// The normal cone of every face.
+    fn cones(&self) -> &[Option<NormalCone>] {
+        self.cones.get_or_init(|| {
+            (0..self.topology.face_count())
+                .map(|face| NormalCone::of(&self.quad(face)))
+                .collect()
+        })
     }
 
     /// How the surfaces were joined.

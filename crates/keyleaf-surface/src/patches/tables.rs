@@ -7,12 +7,14 @@
 //! - a face: the entry of its first control point in `surface_a`; the number of control points a row, with the degrees in u and v in
 //!   bits 24 and 28; the words at which the floats of its spans in u and v start;
 //! - a half-edge (4 · face + root): the half-edge that owns the edge, with bit 31 where the edge is a point; the half-edge that owns the
-//!   corner at its start, one for a whole pole; bits of three bounds (size, ball, deviation); three zeros;
+//!   corner at its start, one for a whole pole; bits of three bounds (size, ball, deviation); three words of the face's normal cone: at
+//!   root 0 its axis, at root 1 cosine and sine of its angle (all 0 where there is none), else zeros;
 //! - spans, each a list of floats: `left[2..=p]`, then `right[2..=p]`; for extraction instead the matrix, row by row, a row a function.
 //!   Equal lists are stored once.
 
 use super::basis::{BasisMethod, extraction_matrix};
 use super::bound::RootBound;
+use super::normal_cone::NormalCone;
 use super::span::Span;
 use super::{PatchKind, Patches};
 use crate::direction::round_up;
@@ -146,7 +148,9 @@ fn face_words(patches: &Patches, spans: &mut SpanTable) -> Vec<u32> {
 
 fn half_edge_words(patches: &Patches) -> impl Iterator<Item = u32> {
     let topology = &patches.topology;
+    let cones = patches.cones();
     topology.roots().zip(&patches.bounds).flat_map(move |(root, bound)| {
+        let [x, y, z] = cone_words(cones[root.face as usize], root.root);
         let own = topology.half_edge_index(root.face, root.root) as usize;
         let owner = topology.half_edge_owner(root.face, root.root);
         let corner = patches.addresses.corners[own];
@@ -159,11 +163,23 @@ fn half_edge_words(patches: &Patches) -> impl Iterator<Item = u32> {
             size,
             ball,
             deviation,
-            0,
-            0,
-            0,
+            x,
+            y,
+            z,
         ]
     })
+}
+
+/// The part of a face's normal cone that the record of a root holds.
+fn cone_words(cone: Option<NormalCone>, root: u32) -> [u32; 3] {
+    let Some(NormalCone { axis, cosine, sine }) = cone else {
+        return [0; 3];
+    };
+    match root {
+        0 => axis.to_array().map(|c| (c as f32).to_bits()),
+        1 => [(cosine as f32).to_bits(), round_up(sine).to_bits(), 0],
+        _ => [0; 3],
+    }
 }
 
 /// The rounding error of a position: of basis functions, of sums over rows and columns, and of a quotient, each at most a few units of

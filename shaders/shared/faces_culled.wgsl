@@ -1,0 +1,9 @@
+// Faces are culled by what `passes/cull_faces.wgsl` found.
+// requires: shared/leaf.wgsl
+
+@group(0) @binding(6) var<storage, read> leaves: array<Leaf>;
+@group(0) @binding(7) var<storage, read> faces: array<u32>;
+
+fn face_is_drawn(slot: u32) -> bool {
+    return faces[leaves[slot].face] != 0u;
+}

@@ -1,0 +1,5 @@
+// No face is culled.
+
+fn face_is_drawn(slot: u32) -> bool {
+    return true;
+}

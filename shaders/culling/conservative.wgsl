@@ -1,6 +1,6 @@
-// Back-patch culling that loses nothing: a face is culled when no normal in a cone about all cross products of its tangents' bounds
-// (Concheiro 6.12, corrected: over all pairs of differences) faces the eye, from any control point. The surface lies in the hull of
-// those, and n . (P - eye) is linear in P. The cone is made on the CPU: keyleaf-surface `patches::normal_cone`.
+// Back-patch culling that loses nothing (Concheiro 6.12, corrected: over all pairs of differences): a face is culled when no normal in
+// the cone about all that it can have faces the eye, from any control point. The surface lies in the hull of those, and n . (P - eye) is
+// linear in P. The cone is made on the CPU: keyleaf-surface `patches::normal_cone`.
 // requires: shared/patch.wgsl
 
 fn face_is_back(face: u32, eye: vec3f, side: f32) -> bool {

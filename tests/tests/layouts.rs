@@ -226,7 +226,7 @@ fn arguments_and_constants() {
     const { assert!(arguments::SIZE >= arguments::DRAW + 20) };
     assert_eq!(constant(&copy, "GROUP_SIZE"), layout::GROUP_SIZE);
     assert_eq!(constant(&copy, "UPDATE_LEAVES"), layout::UPDATE_LEAVES);
-    let update = parse(&["passes/update.wgsl", "shared/balance.wgsl"]);
+    let update = parse(&["passes/update.wgsl", "shared/balance.wgsl", "shared/faces_drawn.wgsl"]);
     assert_eq!(
         constant(&update, "GROUP_SIZE") * constant(&update, "LEAVES_PER_INVOCATION"),
         layout::UPDATE_LEAVES

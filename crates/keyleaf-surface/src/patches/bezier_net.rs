@@ -86,26 +86,17 @@ impl BezierNet {
         [low, high]
     }
 
-    /// Vectors of which the tangents in u, and in v, are sums with weights that are not negative; none where a weight is not positive.
-    /// Differences of neighbours in one line, or, where weights differ, in any two lines.
-    pub fn tangents(&self) -> Option<[Vec<DVec3>; 2]> {
-        let [least, greatest] = self.weights();
-        if least <= 0.0 {
-            return None;
-        }
-        let is_rational = greatest - least > 1e-12 * greatest;
-        let points: Vec<DVec3> = self.controls.iter().map(|c| c.truncate() / c.w).collect();
-        let stride = [1, self.degree[0] + 1];
-        Some([0, 1].map(|axis| {
-            let lines = 0..=self.degree[1 - axis];
-            let pairs = lines.clone().flat_map(|a| lines.clone().map(move |b| (a, b)));
-            let pairs: Vec<_> = pairs.filter(|(a, b)| is_rational || a == b).collect();
-            let place = |k: usize, line: usize| k * stride[axis] + line * stride[1 - axis];
-            let steps = (0..self.degree[axis]).flat_map(|k| pairs.iter().map(move |&(a, b)| (k, a, b)));
-            steps
-                .map(|(k, a, b)| points[place(k + 1, a)] - points[place(k, b)])
-                .collect()
-        }))
+    /// Vectors whose means the derivatives times the weight are, in u and in v, but for vectors no longer than the number beside them.
+    ///
+    /// With A = w (P − c) about the net's own centre: W S_u = A_u − W_u (S − c), and A_u is a mean of its control points.
+    pub fn tangents(&self) -> [(Vec<DVec3>, f64); 2] {
+        let (net, reach) = self.about_centre();
+        [0, 1].map(|axis| {
+            let hodograph = net.difference(axis);
+            let change = hodograph.controls.iter().map(|c| c.w.abs()).fold(0.0, f64::max);
+            let vectors = hodograph.controls.iter().map(|c| c.truncate()).collect();
+            (vectors, change * reach)
+        })
     }
 
     /// Bounds over the net, in parameters in which it has the given size.

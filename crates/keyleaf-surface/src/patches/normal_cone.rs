@@ -6,8 +6,8 @@ use glam::DVec3;
 
 /// A KSQuad is bounded in parts, 4^this of them: the tangents of a part differ less.
 const DEPTH: u32 = 2;
-/// More pairs of tangents than this in a part are not worth their time: the face has no cone.
-const MOST_PAIRS: usize = 1 << 16;
+/// The same where weights differ: what they add to the tangents falls by half with each.
+const DEPTH_OF_WEIGHTS: u32 = 4;
 /// Below this sine the rounding of the operands decides the direction of their cross product.
 const PARALLEL: f64 = 1e-12;
 /// What rounding, in f64 here and in f32 where it is used, may turn a normal by, as a sine.
@@ -24,29 +24,68 @@ pub struct NormalCone {
     pub sine: f64,
 }
 
-impl NormalCone {
-    /// Of a KSQuad; none where its normals may differ by a right angle and more, or weights vanish.
-    ///
-    /// A tangent in u is a sum of differences of neighbours in u with weights that are not negative: of control points of one row, or,
-    /// where weights differ, of any two rows (the curve at a fixed v has control points in the hulls of the columns). So du × dv is such a
-    /// sum of cross products of all pairs.
-    pub fn of(quad: &KsQuad<'_>) -> Option<Self> {
-        let mut normals = Vec::new();
-        for part in BezierNet::of(quad).parts(DEPTH) {
-            let [us, vs] = part.tangents()?;
-            if us.len() * vs.len() > MOST_PAIRS {
+/// What bounds du × dv over a part, up to a positive factor: means of these vectors, but for one no longer than `error`.
+struct Normals {
+    crosses: Vec<DVec3>,
+    error: f64,
+}
+
+impl Normals {
+    /// Over all pairs of control points of both derivatives: a mean of one times a mean of the other is a mean of the products.
+    fn of(part: &BezierNet) -> Self {
+        let [(us, u_error), (vs, v_error)] = part.tangents();
+        let longest = |vectors: &[DVec3]| vectors.iter().map(|v| v.length()).fold(0.0, f64::max);
+        let (u_length, v_length) = (longest(&us), longest(&vs));
+        let error = u_length * v_error + v_length * u_error + u_error * v_error;
+        // What is parallel adds nothing, but may shorten a mean: that matters where there is an error.
+        let counts = |n: &DVec3| error > 0.0 || n.length() > PARALLEL * u_length * v_length;
+        let cross = |u: &DVec3| vs.iter().map(|v| u.cross(*v)).collect::<Vec<_>>();
+        Self {
+            crosses: us.iter().flat_map(cross).filter(counts).collect(),
+            error,
+        }
+    }
+
+    /// The greatest angle between a normal and the axis; none if it may be a right angle or more.
+    fn angle_from(&self, axis: DVec3) -> Option<f64> {
+        let turn = if self.error > 0.0 {
+            let along = |n: &DVec3| n.dot(axis);
+            let least = self.crosses.iter().map(along).fold(f64::INFINITY, f64::min);
+            if least <= self.error {
                 return None;
             }
-            for u in us.iter().filter_map(|u| u.try_normalize()) {
-                // Directions only: lengths are weights that are not negative. What is parallel adds nothing.
-                let crosses = vs.iter().filter_map(|v| Some(u.cross(v.try_normalize()?)));
-                normals.extend(crosses.filter(|n| n.length() > PARALLEL).map(DVec3::normalize));
-            }
+            (self.error / least).asin()
+        } else {
+            0.0
+        };
+        let angles = self
+            .crosses
+            .iter()
+            .filter(|n| n.length() > 0.0)
+            .map(|n| n.angle_between(axis));
+        let angle = angles.fold(0.0, f64::max) + turn;
+        (angle < std::f64::consts::FRAC_PI_2).then_some(angle)
+    }
+}
+
+impl NormalCone {
+    /// Of a KSQuad; none where its normals may differ by a right angle from their mean, or weights vanish.
+    pub fn of(quad: &KsQuad<'_>) -> Option<Self> {
+        let net = BezierNet::of(quad);
+        let [least, greatest] = net.weights();
+        if least <= 0.0 {
+            return None;
         }
-        let axis = normals.iter().sum::<DVec3>().try_normalize()?;
-        let cosine = normals.iter().map(|n| n.dot(axis)).fold(1.0, f64::min);
-        let sine = (1.0 - cosine * cosine).max(0.0).sqrt() + ROUNDING;
-        let cosine = (1.0 - sine * sine).max(0.0).sqrt().min(cosine);
+        let depth = if greatest > least { DEPTH_OF_WEIGHTS } else { DEPTH };
+        let parts: Vec<Normals> = net.parts(depth).iter().map(Normals::of).collect();
+        let directions = parts
+            .iter()
+            .flat_map(|part| &part.crosses)
+            .filter_map(|n| n.try_normalize());
+        let axis = directions.sum::<DVec3>().try_normalize()?;
+        let angles: Option<Vec<f64>> = parts.iter().map(|part| part.angle_from(axis)).collect();
+        let angle = angles?.into_iter().fold(0.0, f64::max) + ROUNDING;
+        let (sine, cosine) = angle.sin_cos();
         (cosine > ROUNDING).then_some(Self { axis, cosine, sine })
     }
 }

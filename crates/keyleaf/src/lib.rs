@@ -51,6 +51,7 @@
 #![deny(missing_docs)]
 
 pub mod binding;
+mod buffers;
 pub mod draw;
 mod error;
 mod grid;

@@ -1,6 +1,7 @@
 //! `keyleaf export`: the very triangles that are drawn.
 
 use crate::arguments::{SceneArguments, ViewArguments};
+use crate::collapse::collapse;
 use crate::output::{self, thousands};
 use crate::{Outcome, progress, session};
 use anyhow::{bail, ensure};
@@ -21,7 +22,8 @@ use std::time::Instant;
 /// Write the triangles that are drawn for a view to a model
 ///
 /// Positions are world space, printed so that every f32 keeps its bits. Vertices that are the same point of the surface are written
-/// once, so that a closed surface gives a closed mesh: with --no-cull or --uniform every edge is used once in each direction.
+/// once, so that a closed surface gives a closed mesh: with --no-cull or --uniform every edge is used once in each direction. Triangles
+/// with equal corners, as at the poles of patches, are left out.
 #[derive(Args)]
 #[command(after_help = "Examples:
   keyleaf export scenes/fox.ron -o fox.obj
@@ -102,7 +104,9 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
     for object in &stage.objects {
         leaves += add(&gpu, &object.quadtree, arguments, &mut all, quiet)?;
     }
-    let normals: Vec<[f32; 3]> = all.normals.iter().map(|n| n.as_vec3().to_array()).collect();
+    collapse(&mut all.positions, &mut all.normals, &mut all.triangles);
+    let unit = |n: &DVec3| n.try_normalize().unwrap_or(DVec3::Y).as_vec3().to_array();
+    let normals: Vec<[f32; 3]> = all.normals.iter().map(unit).collect();
     let mesh = ExportMesh {
         positions: &all.positions,
         normals: arguments.normals.then_some(&normals),
@@ -237,9 +241,6 @@ fn add(
                 .extend(corners.map(|[a, b, c]| if placed.is_mirrored { [a, c, b] } else { [a, b, c] }));
         }
         bar.inc(piece.len() as u64);
-    }
-    for normal in &mut all.normals[first..] {
-        *normal = normal.try_normalize().unwrap_or(DVec3::Y);
     }
     bar.finish_and_clear();
     Ok(slots.len())

@@ -8,6 +8,7 @@
 mod arguments;
 mod bench;
 mod check;
+mod collapse;
 mod csv;
 mod eval;
 mod export;

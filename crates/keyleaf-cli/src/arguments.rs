@@ -43,7 +43,7 @@ pub enum Up {
 }
 
 /// What replaces the settings of the scene, for all its surfaces.
-#[derive(Args, Clone)]
+#[derive(Args, Clone, Default)]
 pub struct Overrides {
     /// Length of a drawn edge in pixels that leaves are split for; short for --metric edge=P
     #[arg(long, value_name = "P", conflicts_with = "metric", allow_negative_numbers = true)]
@@ -297,14 +297,7 @@ mod tests {
 
     #[test]
     fn fewer_pixels_replace_the_metric_of_the_scene() {
-        let none = Overrides {
-            pixels: None,
-            metric: None,
-            back_faces: None,
-            capacity: None,
-            base_grid: None,
-            max_level: None,
-        };
+        let none = Overrides::default();
         let mut settings = Settings {
             max_level: 29,
             ..Settings::default()

@@ -66,15 +66,7 @@ const APPENDED: &str = "x,y,z,du_x,du_y,du_z,dv_x,dv_y,dv_z,n_x,n_y,n_z";
 /// Runs the command.
 pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
     output::ensure_writable(&arguments.output)?;
-    let overrides = Overrides {
-        pixels: None,
-        metric: None,
-        back_faces: None,
-        capacity: None,
-        base_grid: None,
-        max_level: None,
-    };
-    let loaded = load_scene(&arguments.scene, &arguments.reading, &overrides, quiet)?;
+    let loaded = load_scene(&arguments.scene, &arguments.reading, &Overrides::default(), quiet)?;
     let csv = Csv::read(&arguments.at)?;
     let points = points(&csv, &loaded, arguments)?;
     let mut lines: Vec<Option<String>> = vec![None; points.len()];

@@ -27,8 +27,9 @@ impl Kind {
     /// # Errors
     /// [`KeyleafError::Setting`].
     pub fn validate(&self) -> Result<(), KeyleafError> {
-        let has_net = keyleaf_shaders::dependencies(&[self.surface])?.contains(&"shared/patch.wgsl");
-        if self.back_faces.shader().is_some() && !has_net {
+        let has_net =
+            || keyleaf_shaders::dependencies(&[self.surface]).map(|files| files.contains(&"shared/patch.wgsl"));
+        if self.back_faces.shader().is_some() && !has_net()? {
             return Err(KeyleafError::Setting {
                 setting: "back_faces",
                 value: self.back_faces.name().to_owned(),

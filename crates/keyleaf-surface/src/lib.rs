@@ -46,6 +46,7 @@ mod patches;
 mod polygon_mesh;
 mod quad_coord;
 mod stencil;
+mod subdivision;
 mod surface;
 mod terrain;
 
@@ -62,5 +63,6 @@ pub use patches::{
     Unjoined,
 };
 pub use polygon_mesh::{CornerAttributes, Faces, PolygonMesh};
+pub use subdivision::{BoundaryRule, ControlMesh, Corner, Crease, Creasing, INFINITE_SHARPNESS};
 pub use surface::{OwnCoord, Surface, SurfaceBound, SurfaceFrame, SurfaceTables, TextureData};
 pub use terrain::{Terrain, TerrainSettings};

@@ -38,6 +38,7 @@ struct Terms {
     near: f32,
     guard_factor: f32,
     without_distance: bool,
+    side: f32,         // -1 for mirrored objects, 0 where the eye is nowhere
     has_requests: bool,
     counts_near: bool,
     culling: array<vec4f, 6>,
@@ -50,6 +51,7 @@ fn terms(has_requests: bool) -> Terms {
     t.scale = frame.wish_scale * exp2(f32(-control.pressure) / 16.0);
     let m = frame.world_from_object;
     t.world_from_object = mat3x3f(m[0].xyz, m[1].xyz, m[2].xyz);
+    t.side = select(select(1.0, -1.0, determinant(t.world_from_object) < 0.0), 0.0, frame.clip_from_view[3].w == 1.0);
     t.near = frame.near;
     t.guard_factor = frame.guard_factor;
     t.without_distance = frame.without_distance == 1u;
@@ -101,7 +103,7 @@ fn publish(slot: u32, t: Terms) -> u32 {
     let is_pair = (before & PAIR) != 0u;
     let hidden = is_pair && (digit & 1u) == 1u;
     let seen = select(vec4f(centre, measure.radius), vec4f(parent.xyz, measure.parent_radius), is_pair);
-    return select(0u, VISIBLE, !hidden && !is_outside(t.culling, seen.xyz, seen.w) && face_is_drawn(slot))
+    return select(0u, VISIBLE, !hidden && !is_outside(t.culling, seen.xyz, seen.w) && may_face_eye(slot, seen, t.side))
         | select(0u, SPLITTER, wanted > 1.0)
         | select(0u, MERGER, merges)
         | select(0u, NEAR, t.counts_near && wanted <= 1.0 && wanted > ONE_STEP_LOWER);

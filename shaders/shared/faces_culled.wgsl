@@ -4,6 +4,6 @@
 @group(0) @binding(6) var<storage, read> leaves: array<Leaf>;
 @group(0) @binding(7) var<storage, read> faces: array<u32>;
 
-fn face_is_drawn(slot: u32) -> bool {
+fn may_face_eye(slot: u32, ball: vec4f, side: f32) -> bool {
     return faces[leaves[slot].face] != 0u;
 }

@@ -1,5 +1,5 @@
-// No face is culled.
+// No face and no leaf is culled for facing away.
 
-fn face_is_drawn(slot: u32) -> bool {
+fn may_face_eye(slot: u32, ball: vec4f, side: f32) -> bool {
     return true;
 }

@@ -53,7 +53,7 @@ pub struct Overrides {
     /// flat-test, length-test=VALUE in their own unit, or in pixels as 2px
     #[arg(long, value_name = "METRIC", value_parser = parse_metric)]
     pub metric: Option<Metric>,
-    /// Triangles seen from behind: drawn, hidden, or whole faces of Bézier and NURBS surfaces left out: light and strong (LQC and SQC of
+    /// Triangles seen from behind: drawn, hidden, leaves (whole leaves left out), or whole faces of Bézier and NURBS surfaces left out: light and strong (LQC and SQC of
     /// Concheiro's thesis, both approximate) or conservative
     #[arg(long, value_name = "HOW", value_parser = parse_back_faces)]
     pub back_faces: Option<BackFaces>,

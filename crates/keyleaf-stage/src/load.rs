@@ -164,6 +164,7 @@ pub fn settings(scene: &keyleaf_scene::scene::Settings) -> Settings {
         back_faces: match scene.back_faces {
             scene::BackFaces::Drawn => BackFaces::Drawn,
             scene::BackFaces::Hidden => BackFaces::Hidden,
+            scene::BackFaces::Leaves => BackFaces::Leaves,
             scene::BackFaces::Light => BackFaces::Light,
             scene::BackFaces::Strong => BackFaces::Strong,
             scene::BackFaces::Conservative => BackFaces::Conservative,

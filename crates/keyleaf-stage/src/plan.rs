@@ -123,7 +123,7 @@ fn surface(
     planned.push(module("draw", &["draw"], &files)?);
 
     let capacity = object.settings.capacity;
-    let mut buffers: Vec<PlannedBuffer> = layout::buffer_bytes(capacity)
+    let mut buffers: Vec<PlannedBuffer> = layout::buffer_bytes(capacity, kind.back_faces)
         .into_iter()
         .map(|(name, bytes)| PlannedBuffer {
             name: name.to_owned(),

@@ -1,6 +1,6 @@
 //! The buffers of a quadtree, and their bind groups.
 
-use crate::KeyleafError;
+use crate::{KeyleafError, Settings};
 use crate::binding;
 use crate::layout::{self, Control, arguments};
 use crate::passes::Passes;
@@ -36,17 +36,18 @@ pub(crate) struct Groups {
 }
 
 /// Refuses a capacity below the number of roots, or beyond what the device can bind.
-pub(crate) fn check_capacity(device: &wgpu::Device, surface: &dyn Surface, capacity: u32) -> Result<(), KeyleafError> {
+pub(crate) fn check_capacity(device: &wgpu::Device, surface: &dyn Surface, settings: &Settings) -> Result<(), KeyleafError> {
+    let (capacity, back_faces) = (settings.capacity, settings.back_faces);
     let roots = surface.topology().half_edge_count();
     if capacity < roots {
         return Err(KeyleafError::CapacityBelowRoots { capacity, roots });
     }
     let limits = device.limits();
     let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
-    for (buffer, bytes) in layout::buffer_bytes(capacity) {
+    for (buffer, bytes) in layout::buffer_bytes(capacity, back_faces) {
         if bytes > limit {
             let mut most = capacity;
-            while layout::buffer_bytes(most).iter().any(|(_, b)| *b > limit) {
+            while layout::buffer_bytes(most, back_faces).iter().any(|(_, b)| *b > limit) {
                 most -= (most / 64).max(1);
             }
             return Err(KeyleafError::BeyondLimits {
@@ -63,7 +64,7 @@ pub(crate) fn check_capacity(device: &wgpu::Device, surface: &dyn Surface, capac
 }
 
 impl Buffers {
-    pub fn new(device: &wgpu::Device, capacity: u32, culled_faces: Option<u32>) -> Self {
+    pub fn new(device: &wgpu::Device, settings: &Settings, culled_faces: Option<u32>) -> Self {
         use wgpu::BufferUsages as U;
         let make = |label: &str, size: u64, usage: U| {
             device.create_buffer(&wgpu::BufferDescriptor {
@@ -75,7 +76,7 @@ impl Buffers {
         };
         let storage = U::STORAGE | U::COPY_DST | U::COPY_SRC;
         let sized = |name: &str| {
-            let bytes = layout::buffer_bytes(capacity)
+            let bytes = layout::buffer_bytes(settings.capacity, settings.back_faces)
                 .iter()
                 .find(|(n, _)| *n == name)
                 .map_or(16, |(_, b)| (*b).max(16));

@@ -1,6 +1,7 @@
 //! How the quadtree's buffers are laid out: the Rust side of `shaders/shared/leaf.wgsl`, `control.wgsl` and of the constants of
 //! `passes/copy.wgsl`. A test of the workspace compares sizes and offsets with those that naga computes.
 
+use crate::settings::BackFaces;
 use bytemuck::{Pod, Zeroable};
 use keyleaf_key::{Key, Place};
 
@@ -207,13 +208,14 @@ pub fn place_hash(p: &Place) -> u32 {
     h ^ (h >> 16)
 }
 
-/// Bytes of each buffer whose size depends on the capacity, with the name that `plan` prints.
-pub fn buffer_bytes(capacity: u32) -> [(&'static str, u64); 6] {
+/// Bytes of each buffer whose size depends on the capacity, with the name that `plan` prints. Normal cones of leaves, if there are any,
+/// lie behind the parents.
+pub fn buffer_bytes(capacity: u32, back_faces: BackFaces) -> [(&'static str, u64); 6] {
     let slots = u64::from(capacity);
     [
         ("leaves", slots * size_of::<Leaf>() as u64),
         ("measures", slots * size_of::<Measure>() as u64),
-        ("parents", slots * 16),
+        ("parents", slots * if back_faces.has_leaf_cones() { 32 } else { 16 }),
         ("state", slots * 8),
         ("lists", slots * 16),
         ("table", u64::from(table_entries(capacity)) * 4),

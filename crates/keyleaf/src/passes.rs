@@ -33,7 +33,7 @@ impl Kind {
             return Err(KeyleafError::Setting {
                 setting: "back_faces",
                 value: self.back_faces.name().to_owned(),
-                expected: "expected drawn or hidden: only Bézier and NURBS surfaces have control nets to cull by",
+                expected: "expected drawn, hidden or leaves: only Bézier and NURBS surfaces have control nets to cull by",
             });
         }
         Ok(())
@@ -81,14 +81,20 @@ pub fn modules(kind: &Kind) -> Vec<Module> {
             &["passes/apply_alone.wgsl"],
         ),
     };
-    let (faces, update) = match kind.back_faces.shader() {
-        Some(_) => ("shared/faces_culled.wgsl", UPDATE_CULLED),
-        None => ("shared/faces_drawn.wgsl", UPDATE),
+    let (facing, update) = match kind.back_faces {
+        BackFaces::Drawn | BackFaces::Hidden => ("shared/faces_drawn.wgsl", UPDATE),
+        BackFaces::Leaves => ("shared/leaves_culled.wgsl", UPDATE),
+        BackFaces::Light | BackFaces::Strong | BackFaces::Conservative => ("shared/faces_culled.wgsl", UPDATE_CULLED),
+    };
+    let (kept, moved) = if kind.back_faces.has_leaf_cones() {
+        ("shared/cone_measured.wgsl", "shared/cone_moved.wgsl")
+    } else {
+        ("shared/cone_none.wgsl", "shared/cone_none.wgsl")
     };
     let mut all = vec![
         module(
             "update",
-            &["passes/update.wgsl", speaker, faces],
+            &["passes/update.wgsl", speaker, facing],
             update,
             false,
             &["update", "update_requested"],
@@ -97,14 +103,14 @@ pub fn modules(kind: &Kind) -> Vec<Module> {
         module("apply", change, APPLY, true, &["apply"]),
         module(
             "measure",
-            &["passes/measure.wgsl", speaker, kind.surface, kind.metric],
+            &["passes/measure.wgsl", speaker, kept, kind.surface, kind.metric],
             MEASURE,
             true,
             &["measure", "measure_all"],
         ),
         module(
             "compact",
-            &["passes/compact.wgsl"],
+            &["passes/compact.wgsl", moved],
             COMPACT,
             false,
             &["match_slots", "move_leaves"],

@@ -109,11 +109,11 @@ impl Quadtree {
         settings: Settings,
     ) -> Result<Self, KeyleafError> {
         settings.validate()?;
-        check_capacity(device, surface.as_ref(), settings.capacity)?;
+        check_capacity(device, surface.as_ref(), &settings)?;
         let surface_buffers =
             SurfaceBuffers::new(device, queue, &passes.surface_layout, surface.as_ref(), DVec3::ZERO)?;
         let culled = settings.back_faces.shader().map(|_| surface.topology().face_count());
-        let buffers = Buffers::new(device, settings.capacity, culled);
+        let buffers = Buffers::new(device, &settings, culled);
         let groups = Groups::new(device, &passes, &buffers);
         let mut quadtree = Self {
             passes,
@@ -424,7 +424,7 @@ impl Quadtree {
 
     /// (name, bytes) of every buffer and texture.
     pub fn memory(&self) -> Vec<(&'static str, u64)> {
-        let mut all = layout::buffer_bytes(self.settings.capacity).to_vec();
+        let mut all = layout::buffer_bytes(self.settings.capacity, self.settings.back_faces).to_vec();
         all.push(("frame", self.buffers.frame.size()));
         all.push(("control", self.buffers.control.size()));
         all.push(("arguments", self.buffers.arguments.size()));

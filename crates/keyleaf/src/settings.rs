@@ -235,6 +235,9 @@ pub enum BackFaces {
     Drawn,
     /// They are not drawn.
     Hidden,
+    /// As [`Hidden`](Self::Hidden), and leaves none of whose triangles faces the eye are left out (Concheiro 6.4.1, dice culling): never
+    /// changes a pixel. Takes 16 bytes a leaf, and the surface is asked for all vertices of a leaf once in its life.
+    Leaves,
     /// As [`Hidden`](Self::Hidden), and whole faces are left out whose corners face away (Concheiro 6.11, LQC). Approximate: a face that
     /// bulges towards the eye may be missing. For Bézier and NURBS surfaces, as are those below.
     Light,
@@ -246,12 +249,19 @@ pub enum BackFaces {
 
 impl BackFaces {
     /// All, from the plainest on.
-    pub const ALL: [Self; 5] = [Self::Drawn, Self::Hidden, Self::Light, Self::Strong, Self::Conservative];
+    pub const ALL: [Self; 6] = [
+        Self::Drawn,
+        Self::Hidden,
+        Self::Leaves,
+        Self::Light,
+        Self::Strong,
+        Self::Conservative,
+    ];
 
     /// The WGSL file that defines `face_is_back`, where faces are culled.
     pub fn shader(self) -> Option<&'static str> {
         match self {
-            Self::Drawn | Self::Hidden => None,
+            Self::Drawn | Self::Hidden | Self::Leaves => None,
             Self::Light => Some("culling/light.wgsl"),
             Self::Strong => Some("culling/strong.wgsl"),
             Self::Conservative => Some("culling/conservative.wgsl"),
@@ -263,10 +273,16 @@ impl BackFaces {
         match self {
             Self::Drawn => "drawn",
             Self::Hidden => "hidden",
+            Self::Leaves => "leaves",
             Self::Light => "light",
             Self::Strong => "strong",
             Self::Conservative => "conservative",
         }
+    }
+
+    /// Whether leaves keep a cone of their normals.
+    pub fn has_leaf_cones(self) -> bool {
+        self == Self::Leaves
     }
 
     /// Whether something that can be seen may be missing.

@@ -26,9 +26,12 @@ fn conservative_culling_of_faces_changes_no_pixel_and_draws_less() {
         let (hidden, all) = with("hidden");
         let (conservative, kept) = with("conservative");
         assert_eq!(hidden, conservative, "{scene}");
+        let (leaves, facing) = with("leaves");
+        assert_eq!(hidden, leaves, "{scene}");
+        assert!(facing < kept, "{scene}: {facing} of {kept} leaves");
         assert!(kept < all, "{scene}: {kept} of {all} leaves");
         let ((_, light), (_, strong)) = (with("light"), with("strong"));
-        println!("{scene}: {all} leaves, conservative {kept}, strong {strong}, light {light}");
+        println!("{scene}: {all} leaves, conservative {kept}, leaves {facing}, strong {strong}, light {light}");
         assert!(light < all && strong < all);
         let plan = |how: &str| {
             let output = folder.run(&format!("plan {scene} --json --quiet --back-faces {how}"));

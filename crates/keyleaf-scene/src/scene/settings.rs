@@ -187,6 +187,8 @@ pub enum BackFaces {
     Drawn,
     /// They are not drawn.
     Hidden,
+    /// Leaves none of whose triangles faces the eye are left out (Concheiro 6.4.1, dice culling). Changes no pixel.
+    Leaves,
     /// Faces whose four corners face away are left out (Concheiro 6.11, LQC). Approximate: what bulges may be missing.
     Light,
     /// Faces of whose control net all squares face away are left out (Concheiro 6.12, SQC as printed). Approximate as well.

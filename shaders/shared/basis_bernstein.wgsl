@@ -1,5 +1,5 @@
 // Bernstein polynomials by their recurrence, which neither cancels nor goes negative. Twin: keyleaf-surface `basis`.
-// requires: shared/patch.wgsl
+// requires: shared/patch_basis.wgsl
 
 fn basis(span: u32, degree: u32, f: f32, g: f32) -> Basis {
     var n: Basis;

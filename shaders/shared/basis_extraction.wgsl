@@ -1,6 +1,6 @@
 // B-spline basis functions by Bézier extraction, to compare with: Bernstein polynomials times a matrix a span, made on the CPU.
 // Function k is row k of the matrix.
-// requires: shared/patch.wgsl
+// requires: shared/patch_basis.wgsl
 
 fn basis(span: u32, degree: u32, f: f32, g: f32) -> Basis {
     var bernstein: array<f32, 8>;

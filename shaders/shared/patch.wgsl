@@ -1,6 +1,6 @@
 // Rational tensor-product patches: Bézier patches, and the knot-span quads (KSQuads) of NURBS surfaces, each a four-cornered face.
-// Twin: keyleaf-surface `patches`. Which basis functions they have is another file: it defines
-// `fn basis(span: u32, degree: u32, f: f32, g: f32) -> Basis`.
+// Twin: keyleaf-surface `patches`. How a patch is evaluated is another file: it defines `fn patch_point(p: Patch, at: PatchCoord) -> vec3f`
+// and `fn patch_tangents(p: Patch, at: PatchCoord) -> Tangents`.
 //
 // Departures from Concheiro's thesis, chapter 6: parameters are relative to the knot span and to its length, so that knots 1e-6 apart
 // or far from zero lose no digits; positions are sums of differences to one control point, so that corners and poles are exact also
@@ -26,18 +26,11 @@ struct PatchParams {
 const HALF_EDGE_WORDS: u32 = 8u;
 const COLLAPSED: u32 = 0x80000000u;
 
-// At most seven: the p + 1 functions that are not zero, and N(k, p-1) / D(k), of which p times the differences of control points make
-// the derivative.
-struct Basis {
-    value: array<f32, 8>,
-    slope: array<f32, 8>,
-}
-
 struct Patch {
     base: u32, // entry of table A with control point (0, 0)
     stride: u32,
     degree: vec2u,
-    spans: vec2u, // words of table B
+    spans: vec2u, // words of table B; of patches in power form the entry of table A with the first coefficient
 }
 
 fn patch_of(face: u32) -> Patch {
@@ -82,72 +75,17 @@ fn patch_coord(at: FaceCoord) -> PatchCoord {
         vec2f(complement(q.u, q.u_is_one), complement(q.v, q.v_is_one)));
 }
 
-fn patch_position(p: Patch, at: PatchCoord, u: ptr<function, Basis>, v: ptr<function, Basis>) -> vec3f {
-    let nearest = vec2u(at.f * vec2f(p.degree) + 0.5);
-    let reference = surface_a[p.base + nearest.x + nearest.y * p.stride].xyz;
-    var sum = vec4f(0.0);
-    for (var l = 0u; l <= p.degree.y; l++) {
-        var row = vec4f(0.0);
-        for (var k = 0u; k <= p.degree.x; k++) {
-            let point = surface_a[p.base + k + l * p.stride];
-            row += ((*u).value[k] * point.w) * vec4f(point.xyz - reference, 1.0);
-        }
-        sum += (*v).value[l] * row;
-    }
-    // All weights that count are zero only at a corner whose own is.
-    return select(reference, reference + sum.xyz / sum.w, sum.w > 0.0);
-}
-
+// Derivatives by the parameters within the knot span.
 struct Tangents {
     du: vec3f,
     dv: vec3f,
     duv: vec3f,
 }
 
-// Derivatives at a position, times the total weight: sums of differences of w (P - position).
-fn patch_tangents(p: Patch, position: vec3f, u: ptr<function, Basis>, v: ptr<function, Basis>) -> Tangents {
-    var t: Tangents;
-    var weight = 0.0;
-    var value_before = vec3f(0.0);
-    var slope_before = vec3f(0.0);
-    for (var l = 0u; l <= p.degree.y; l++) {
-        var value = vec3f(0.0);
-        var slope = vec3f(0.0);
-        var row_weight = 0.0;
-        var before = vec3f(0.0);
-        for (var k = 0u; k <= p.degree.x; k++) {
-            let point = surface_a[p.base + k + l * p.stride];
-            let arm = point.w * (point.xyz - position);
-            value += (*u).value[k] * arm;
-            row_weight += (*u).value[k] * point.w;
-            if k > 0u {
-                slope += (*u).slope[k - 1u] * (arm - before);
-            }
-            before = arm;
-        }
-        weight += (*v).value[l] * row_weight;
-        t.du += (*v).value[l] * slope;
-        if l > 0u {
-            t.dv += (*v).slope[l - 1u] * (value - value_before);
-            t.duv += (*v).slope[l - 1u] * (slope - slope_before);
-        }
-        value_before = value;
-        slope_before = slope;
-    }
-    let per_weight = select(0.0, 1.0 / weight, weight > 0.0);
-    t.du *= f32(p.degree.x) * per_weight;
-    t.dv *= f32(p.degree.y) * per_weight;
-    t.duv *= f32(p.degree.x * p.degree.y) * per_weight;
-    return t;
-}
-
 fn surface_point(face: u32, at: FaceCoord) -> vec3f {
     let site = patch_site(face, at);
     let p = patch_of(site.face);
-    let c = patch_coord(site.at);
-    var u = basis(p.spans.x, p.degree.x, c.f.x, c.g.x);
-    var v = basis(p.spans.y, p.degree.y, c.f.y, c.g.y);
-    return positive_zero(patch_position(p, c, &u, &v));
+    return positive_zero(patch_point(p, patch_coord(site.at)));
 }
 
 // A tangent below this part of the mixed derivative is zero but for rounding.
@@ -172,9 +110,7 @@ fn surface_frame(face: u32, at: FaceCoord) -> SurfaceFrame {
     var frame = SurfaceFrame(surface_point(face, at), vec3f(0.0), vec3f(0.0), mean);
     var c = patch_coord(at);
     for (var attempt = 0u; attempt < 2u; attempt++) {
-        var u = basis(p.spans.x, p.degree.x, c.f.x, c.g.x);
-        var v = basis(p.spans.y, p.degree.y, c.f.y, c.g.y);
-        let t = patch_tangents(p, patch_position(p, c, &u, &v), &u, &v);
+        let t = patch_tangents(p, c);
         if attempt == 0u {
             frame.du = t.du;
             frame.dv = t.dv;

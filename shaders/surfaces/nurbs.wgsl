@@ -1,2 +1,2 @@
 // NURBS surfaces. Twin: keyleaf-surface `patches`.
-// requires: shared/patch.wgsl, shared/basis_triangular.wgsl
+// requires: shared/patch.wgsl, shared/patch_basis.wgsl, shared/basis_triangular.wgsl

@@ -8,7 +8,7 @@
 //! | [`every_pass`], [`checks`] | what must hold of every leaf set, and checks that can fail |
 //! | [`history`], [`starvation`], [`scaling`] | where it settles |
 //! | [`leaf_table`] | how long look-ups are |
-//! | [`culling`], [`watertight`] | what is drawn |
+//! | [`culling`], [`watertight`], [`closed_parts`] | what is drawn |
 //! | [`hard_cases`], [`precision`], [`large`] | where numbers get very large, small or many |
 
 mod gpu;
@@ -19,6 +19,7 @@ mod surfaces;
 mod world;
 
 mod checks;
+mod closed_parts;
 mod culling;
 mod every_pass;
 mod hard_cases;

@@ -28,12 +28,12 @@ fn grid_points(leaf: &Place, is_pair: bool, grid: &BaseGrid, k: u32) -> Vec<Root
 }
 
 /// What is drawn: the site and the position of every vertex of every leaf, and the triangles.
-struct Drawn {
-    vertices: Vec<(Site, RootPoint, [f32; 3], [f32; 3])>,
-    triangles: Vec<[usize; 3]>,
+pub struct Drawn {
+    pub vertices: Vec<(Site, RootPoint, [f32; 3], [f32; 3])>,
+    pub triangles: Vec<[usize; 3]>,
 }
 
-fn draw(world: &World, snapshot: &Snapshot) -> Drawn {
+pub fn draw(world: &World, snapshot: &Snapshot) -> Drawn {
     let topology = world.surface.topology();
     let k = world.quadtree.settings().base_grid;
     let grid = BaseGrid::new(k);

@@ -45,7 +45,7 @@ pub enum Up {
 /// What replaces the settings of the scene, for all its surfaces.
 #[derive(Args, Clone, Default)]
 pub struct Overrides {
-    /// Length of a drawn edge in pixels that leaves are split for; short for --metric edge=P
+    /// Length of a drawn edge in pixels that leaves are split for; short for --metric edge=P, or boundary=P,P/n where boundaries are finer
     #[arg(long, value_name = "P", conflicts_with = "metric", allow_negative_numbers = true)]
     pub pixels: Option<f32>,
     /// When leaves split: edge=PIXELS, distance=FACTOR (Khoury 2.1), deviation=PIXELS, or a test of Concheiro's thesis:
@@ -124,11 +124,18 @@ pub fn load_scene(
 
 impl Overrides {
     fn apply(&self, settings: &mut Settings) {
-        settings.metric = self
-            .pixels
-            .map(|pixels| Metric::Edge { pixels })
-            .or(self.metric)
-            .unwrap_or(settings.metric);
+        let of_edges = |pixels| match settings.metric {
+            // Boundaries stay as much finer as they are.
+            Metric::Boundary {
+                pixels: before,
+                boundary_pixels,
+            } => Metric::Boundary {
+                pixels,
+                boundary_pixels: pixels * (boundary_pixels / before),
+            },
+            _ => Metric::Edge { pixels },
+        };
+        settings.metric = self.pixels.map(of_edges).or(self.metric).unwrap_or(settings.metric);
         settings.back_faces = self.back_faces.unwrap_or(settings.back_faces);
         settings.capacity = self.capacity.unwrap_or(settings.capacity);
         settings.target_leaves = settings.target_leaves.min(settings.capacity);

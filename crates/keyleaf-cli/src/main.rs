@@ -5,6 +5,7 @@
 //! Exit codes: 0, or 1 if what was checked failed, or 2 for bad use and bad input, with one message on stderr. A file is written
 //! whole or not at all.
 
+mod accuracy;
 mod arguments;
 mod bench;
 mod check;
@@ -47,6 +48,7 @@ enum Command {
     Eval(eval::Arguments),
     Check(check::Arguments),
     Bench(bench::Arguments),
+    Accuracy(accuracy::Arguments),
     Plan(plan::Arguments),
     Info(info::Arguments),
 }
@@ -67,6 +69,7 @@ fn main() -> ExitCode {
         Command::Eval(arguments) => eval::run(&arguments, quiet),
         Command::Check(arguments) => check::run(&arguments, quiet),
         Command::Bench(arguments) => bench::run(&arguments, quiet),
+        Command::Accuracy(arguments) => accuracy::run(&arguments, quiet),
         Command::Plan(arguments) => plan::run(&arguments, quiet),
         Command::Info(arguments) => info::run(&arguments),
     };

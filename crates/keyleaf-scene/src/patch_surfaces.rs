@@ -124,6 +124,13 @@ fn tell(file: &Path, report: &JoinReport, notes: &mut Vec<Note>) {
             "surfaces with u and v exchanged, so that neighbours have the same side up: {number}"
         ));
     }
+    match count(Unjoined::Apart) {
+        0 => {}
+        apart => notes.push(Note::warning(
+            file,
+            format!("boundaries that lie along another but are not the same curve with the same knots, open: {apart}"),
+        )),
+    }
     match count(Unjoined::Crowded) {
         0 => {}
         crowded => notes.push(Note::warning(

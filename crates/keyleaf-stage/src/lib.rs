@@ -18,4 +18,4 @@ mod stage;
 
 pub use load::{LoadError, LoadOptions, Loaded, LoadedObject, load, settings, view_of};
 pub use picture::{Canvas, DEPTH, SAMPLES, target};
-pub use stage::{Effects, Show, Stage, StageLook, StageObject};
+pub use stage::{Effects, Pipelines, Show, Stage, StageLook, StageObject};

@@ -79,20 +79,44 @@ pub struct LoadedObject {
 /// [`LoadError::Open`] names file, place and reason.
 pub fn load(file: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
     let opened = keyleaf_scene::open(file, options)?;
-    let objects: Vec<LoadedObject> = opened.surfaces.into_iter().map(object).collect();
+    let mut objects: Vec<LoadedObject> = opened.surfaces.into_iter().map(object).collect();
     let boxes = objects
         .iter()
         .map(|o| world_box(o.surface.bounding_box(), &o.world_from_object));
     let bounds = boxes.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |all, one| {
         (all.0.min(one.0), all.1.max(one.1))
     });
-    let notes = opened.notes.iter().map(ToString::to_string).collect();
+    let mut notes: Vec<String> = opened.notes.iter().map(ToString::to_string).collect();
+    notes.extend(objects.iter_mut().filter_map(refine_gaps));
     Ok(Loaded {
         file: opened.file,
         scene: opened.scene,
         objects,
         notes,
         bounds,
+    })
+}
+
+/// How much finer the boundaries of a model are drawn than the rest, where some lie along others that they could not be joined with.
+const GAP_OVERSAMPLING: f32 = 4.0;
+
+/// Oversamples the boundaries of a model with gaps (Concheiro 6.10, the boundary region), and says so.
+fn refine_gaps(object: &mut LoadedObject) -> Option<String> {
+    let gaps = object.surface.as_patches()?.report().gaps();
+    let Metric::Edge { pixels } = object.settings.metric else {
+        return None;
+    };
+    let boundary_pixels = pixels / GAP_OVERSAMPLING;
+    (gaps > 0).then(|| {
+        object.settings.metric = Metric::Boundary {
+            pixels,
+            boundary_pixels,
+        };
+        format!(
+            "note: surface {}: {gaps} boundaries lie along others that they could not be joined with; edges at open boundaries are \
+             refined to {boundary_pixels} pixels (metric boundary)",
+            object.name
+        )
     })
 }
 

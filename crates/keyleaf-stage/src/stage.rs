@@ -90,6 +90,43 @@ pub struct StageObject {
     shading: Shading,
 }
 
+/// The pipelines that were compiled so far, for one target. Scenes that follow each other on a device can share them.
+#[derive(Default)]
+pub struct Pipelines {
+    passes: HashMap<Kind, Arc<Passes>>,
+    draws: HashMap<(Kind, Channel), Arc<LeafPipeline>>,
+}
+
+impl Pipelines {
+    /// The passes of the update for a kind of quadtree.
+    ///
+    /// # Errors
+    /// [`KeyleafError`] if the kind is impossible.
+    pub fn passes(&mut self, device: &wgpu::Device, kind: Kind) -> Result<Arc<Passes>, KeyleafError> {
+        if let Some(passes) = self.passes.get(&kind) {
+            return Ok(Arc::clone(passes));
+        }
+        let passes = Arc::new(Passes::new(device, kind)?);
+        self.passes.insert(kind, Arc::clone(&passes));
+        Ok(passes)
+    }
+
+    fn draw(
+        &mut self,
+        device: &wgpu::Device,
+        kind: Kind,
+        channel: Channel,
+        target: Target,
+    ) -> Result<Arc<LeafPipeline>, KeyleafError> {
+        if let Some(pipeline) = self.draws.get(&(kind, channel)) {
+            return Ok(Arc::clone(pipeline));
+        }
+        let pipeline = Arc::new(LeafPipeline::new(device, &kind, channel, target)?);
+        self.draws.insert((kind, channel), Arc::clone(&pipeline));
+        Ok(pipeline)
+    }
+}
+
 /// A scene on the GPU, for one kind of picture.
 pub struct Stage {
     /// The surfaces, in the order of the scene.
@@ -109,26 +146,29 @@ impl Stage {
     /// # Errors
     /// [`KeyleafError`]: settings out of range, or more than the device holds.
     pub fn new(gpu: &Headless, loaded: &Loaded, look: StageLook, target: Target) -> Result<Self, KeyleafError> {
+        Self::with_pipelines(gpu, loaded, look, target, &mut Pipelines::default())
+    }
+
+    /// The same with pipelines that are there already. All must be for one target.
+    ///
+    /// # Errors
+    /// As [`Stage::new`].
+    pub fn with_pipelines(
+        gpu: &Headless,
+        loaded: &Loaded,
+        look: StageLook,
+        target: Target,
+        pipelines: &mut Pipelines,
+    ) -> Result<Self, KeyleafError> {
         let (device, queue) = (&gpu.device, &gpu.queue);
         let effects = Effects::of(&loaded.scene, look);
         let light = loaded.shading();
-        let mut passes: HashMap<Kind, Arc<Passes>> = HashMap::new();
-        let mut pipelines: HashMap<(Kind, Channel), Arc<LeafPipeline>> = HashMap::new();
         let mut objects = Vec::new();
         for object in &loaded.objects {
             let kind = Quadtree::kind(object.surface.as_ref(), &object.settings);
             let channel = effects.channel(look.show, object.material);
-            let passes = match passes.get(&kind) {
-                Some(passes) => Arc::clone(passes),
-                None => Arc::clone(passes.entry(kind).or_insert(Arc::new(Passes::new(device, kind)?))),
-            };
-            let pipeline = match pipelines.get(&(kind, channel)) {
-                Some(pipeline) => Arc::clone(pipeline),
-                None => {
-                    let made = Arc::new(LeafPipeline::new(device, &kind, channel, target)?);
-                    Arc::clone(pipelines.entry((kind, channel)).or_insert(made))
-                }
-            };
+            let passes = pipelines.passes(device, kind)?;
+            let pipeline = pipelines.draw(device, kind, channel, target)?;
             let quadtree = Quadtree::new(
                 device,
                 queue,

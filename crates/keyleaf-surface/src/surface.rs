@@ -1,6 +1,6 @@
 //! What every surface answers, and what the GPU reads of it.
 
-use crate::{ParameterError, coordinate};
+use crate::{ParameterError, Patches, coordinate};
 use glam::DVec3;
 use keyleaf_key::{Place, RootPoint, Topology};
 use std::sync::Arc;
@@ -26,6 +26,11 @@ pub trait Surface: Send + Sync {
 
     /// The WGSL file of the twin, relative to the folder `shaders`.
     fn shader(&self) -> &'static str;
+
+    /// The model of Bézier or NURBS surfaces that this is, if it is one.
+    fn as_patches(&self) -> Option<&Patches> {
+        None
+    }
 
     /// What the GPU reads, for positions relative to `origin` (object space).
     fn tables(&self, origin: DVec3) -> SurfaceTables;

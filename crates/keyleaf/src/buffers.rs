@@ -1,10 +1,10 @@
 //! The buffers of a quadtree, and their bind groups.
 
-use crate::{KeyleafError, Settings};
 use crate::binding;
 use crate::layout::{self, Control, arguments};
 use crate::passes::Passes;
 use crate::view::Frame;
+use crate::{KeyleafError, Settings};
 use keyleaf_surface::Surface;
 
 /// Buffers whose size depends on the capacity, and the bind groups over them.
@@ -36,7 +36,11 @@ pub(crate) struct Groups {
 }
 
 /// Refuses a capacity below the number of roots, or beyond what the device can bind.
-pub(crate) fn check_capacity(device: &wgpu::Device, surface: &dyn Surface, settings: &Settings) -> Result<(), KeyleafError> {
+pub(crate) fn check_capacity(
+    device: &wgpu::Device,
+    surface: &dyn Surface,
+    settings: &Settings,
+) -> Result<(), KeyleafError> {
     let (capacity, back_faces) = (settings.capacity, settings.back_faces);
     let roots = surface.topology().half_edge_count();
     if capacity < roots {

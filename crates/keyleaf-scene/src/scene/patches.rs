@@ -92,6 +92,9 @@ pub enum Basis {
     DeBoor,
     /// Bernstein polynomials, and an extraction matrix for each span.
     Extraction,
+    /// No basis functions: coefficients of powers, made once a knot-span quad (Concheiro 2.2). For samples it is fast; at collapsed edges
+    /// normals are less exact.
+    Power,
 }
 
 impl From<Basis> for BasisMethod {
@@ -101,6 +104,7 @@ impl From<Basis> for BasisMethod {
             Basis::Stair => Self::Stair,
             Basis::DeBoor => Self::DeBoor,
             Basis::Extraction => Self::Extraction,
+            Basis::Power => Self::Power,
         }
     }
 }

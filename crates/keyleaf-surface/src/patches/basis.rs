@@ -6,7 +6,7 @@
 use super::span::{Fraction, MAX_ORDER, Span};
 use std::ops::{Add, Mul};
 
-/// How basis functions are computed. All give the same surface; they differ in speed and rounding.
+/// How patches are evaluated: by which basis functions, or without. All give the same surface; they differ in speed and rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum BasisMethod {
     /// The triangular table (Piegl & Tiller A2.2).
@@ -18,6 +18,9 @@ pub enum BasisMethod {
     DeBoor,
     /// Bernstein polynomials times a matrix a span (Bézier extraction).
     Extraction,
+    /// No basis functions: coefficients of powers, made once a KSQuad (Concheiro 2.2), about its middle. Cheap for samples, but at a
+    /// collapsed edge derivatives are zero only up to rounding.
+    Power,
 }
 
 /// The values of the p + 1 functions over a span, the first first; of the span's degree or a lower one.
@@ -26,7 +29,7 @@ pub fn values(method: BasisMethod, degree: usize, span: &Span, at: Fraction) -> 
         std::array::from_fn(|r| if r <= degree { function(r, degree - r) } else { 0.0 })
     };
     match method {
-        BasisMethod::Triangular => triangular(degree, span, at),
+        BasisMethod::Triangular | BasisMethod::Power => triangular(degree, span, at),
         BasisMethod::Stair if degree <= 3 => each(&|m, k| staircases(m, k, span, at)),
         BasisMethod::Stair => each(&|m, k| all_paths(Path::START, [m, k], span, at)),
         BasisMethod::DeBoor => each(&|_, k| de_boor(k, degree, span, at)),

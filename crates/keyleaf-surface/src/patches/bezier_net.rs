@@ -53,6 +53,16 @@ impl BezierNet {
         }
     }
 
+    /// The degrees in u and v.
+    pub fn degree(&self) -> [usize; 2] {
+        self.degree
+    }
+
+    /// Homogeneous control points (w (P − c), w), u fastest.
+    pub fn controls(&self) -> &[DVec4] {
+        &self.controls
+    }
+
     /// The least and the greatest weight.
     pub fn weights(&self) -> [f64; 2] {
         let weights = self.controls.iter().map(|control| control.w);

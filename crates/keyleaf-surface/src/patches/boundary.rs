@@ -165,6 +165,36 @@ impl BoundaryCurve {
             .fold(0.0, f64::max)
     }
 
+    /// Points of it at `count` equal steps of its parameter, the ends among them.
+    pub fn samples(&self, count: usize) -> Vec<DVec3> {
+        let at = |i: usize| self.point(i as f64 / (count - 1) as f64);
+        (0..count).map(at).collect()
+    }
+
+    /// Points that chords between them follow the curve: so many a span.
+    pub fn chain(&self, a_span: usize) -> Vec<DVec3> {
+        let spans = self.breaks.windows(2);
+        let inner =
+            spans.flat_map(|ends| (0..a_span).map(move |i| ends[0] + (ends[1] - ends[0]) * (i as f64 / a_span as f64)));
+        inner.chain([1.0]).map(|t| self.point(t)).collect()
+    }
+
+    /// The point at a parameter from 0 to 1, by de Casteljau.
+    fn point(&self, t: f64) -> DVec3 {
+        let last = self.breaks.len() - 2;
+        let span = self.breaks.partition_point(|&b| b <= t).saturating_sub(1).min(last);
+        let (start, end) = (self.breaks[span], self.breaks[span + 1]);
+        let f = ((t - start) / (end - start)).clamp(0.0, 1.0);
+        let controls = &self.controls[span * (self.degree + 1)..][..=self.degree];
+        let mut points: Vec<DVec4> = controls.iter().map(|&(p, w)| (p * w).extend(w)).collect();
+        for length in (1..points.len()).rev() {
+            for i in 0..length {
+                points[i] = points[i].lerp(points[i + 1], f);
+            }
+        }
+        points[0].truncate() / points[0].w.max(f64::MIN_POSITIVE)
+    }
+
     /// Whether all of it lies within a distance of its start.
     pub fn is_collapsed(&self, tolerance: f64) -> bool {
         let start = self.controls[0].0;

@@ -5,6 +5,7 @@
 //! on both sides.
 
 use super::boundary::{BoundaryCurve, BoundaryPlace, Difference};
+use super::gap::along_each_other;
 use super::layout::{Layout, Side};
 use super::nurbs_surface::NurbsSurface;
 use super::orientation::orient;
@@ -68,7 +69,7 @@ pub fn join(mut surfaces: Vec<NurbsSurface>, tolerance: f64) -> Joined {
         exact: joins.iter().filter(|join| join.is_exact).count() as u32,
         snapped: joins.iter().filter(|join| !join.is_exact).count() as u32,
         largest_move: welds.apply(&mut surfaces),
-        unjoined: unjoined(&curves, &joins, &dropped, &crowded, &surfaces),
+        unjoined: unjoined(&curves, &joins, &dropped, &crowded, &surfaces, high.distance(low)),
         poles: Vec::new(),
         transposed: (0..).zip(&transposed).filter(|(_, is)| **is).map(|(s, _)| s).collect(),
     };
@@ -237,6 +238,7 @@ fn unjoined(
     dropped: &[Join],
     crowded: &[bool],
     surfaces: &[NurbsSurface],
+    diagonal: f64,
 ) -> Vec<(Boundary, Unjoined)> {
     let mut reasons: Vec<Option<Unjoined>> = crowded
         .iter()
@@ -250,6 +252,13 @@ fn unjoined(
         .iter()
         .flat_map(|join| join.boundaries)
         .for_each(|b| reasons[b] = Some(Unjoined::NotOrientable));
+    let open: Vec<usize> = (0..curves.len()).filter(|&b| reasons[b].is_some()).collect();
+    let open_curves: Vec<&BoundaryCurve> = open.iter().map(|&b| &curves[b]).collect();
+    for (&b, is_along) in open.iter().zip(along_each_other(&open_curves, diagonal)) {
+        if is_along && reasons[b] == Some(Unjoined::Free) {
+            reasons[b] = Some(Unjoined::Apart);
+        }
+    }
     let named = curves.iter().zip(reasons);
     named
         .filter_map(|(curve, reason)| {

@@ -15,6 +15,7 @@
 //! | `basis`, `evaluation`, `normal` | a point of a KSQuad |
 //! | `layout` | KSQuads, sides, tears |
 //! | `boundary`, `join`, `orientation`, `weld` | which boundaries are the same curve |
+//! | `gap` | which lie along each other without being the same |
 //! | `addresses` | one address for every edge, corner and pole |
 //! | `bezier_net`, `bound`, `normal_cone` | bounds |
 //! | `tables` | what the GPU reads |
@@ -27,12 +28,14 @@ mod boundary;
 mod classes;
 mod error;
 mod evaluation;
+mod gap;
 mod join;
 mod layout;
 mod normal;
 mod normal_cone;
 mod nurbs_surface;
 mod orientation;
+mod power_form;
 mod report;
 mod span;
 mod tables;
@@ -52,7 +55,7 @@ use bound::RootBound;
 use evaluation::KsQuad;
 use glam::DVec3;
 use join::Joined;
-use keyleaf_key::{MAX_LEVEL, Place, RootPoint, Topology};
+use keyleaf_key::{HalfEdge, MAX_LEVEL, Place, RootPoint, Topology};
 use layout::Layout;
 use normal_cone::NormalCone;
 use span::Fraction;
@@ -214,6 +217,34 @@ impl Patches {
         self.surface_of_face.get(face as usize).copied()
     }
 
+    /// The distinct knots of the domain of a surface, in u and v, as it is drawn.
+    pub fn knots_of(&self, surface: u32) -> [Vec<f64>; 2] {
+        let Layout { spans, .. } = &self.layouts[surface as usize];
+        [&spans[0], &spans[1]].map(|spans| {
+            let starts = spans.iter().map(|span| span.start);
+            starts.chain(spans.last().map(|span| span.end)).collect()
+        })
+    }
+
+    /// The half-edges of a side of a surface as it is drawn, in the direction in which its parameter grows.
+    pub fn half_edges_of(&self, surface: u32, side: Side) -> Vec<HalfEdge> {
+        let layout = &self.layouts[surface as usize];
+        let [nu, nv] = [layout.spans[0].len(), layout.spans[1].len()];
+        let (count, place): (usize, fn(usize, [usize; 2]) -> [usize; 2]) = match side {
+            Side::VMin => (nu, |i, _| [i, 0]),
+            Side::UMax => (nv, |i, [nu, _]| [nu - 1, i]),
+            Side::VMax => (nu, |i, [_, nv]| [i, nv - 1]),
+            Side::UMin => (nv, |i, _| [0, i]),
+        };
+        let root = side as u32;
+        (0..count)
+            .map(|i| HalfEdge {
+                face: layout.face(place(i, [nu, nv])),
+                root,
+            })
+            .collect()
+    }
+
     fn quad(&self, face: u32) -> KsQuad<'_> {
         let surface = self.surface_of_face[face as usize] as usize;
         quad(&self.surfaces[surface], &self.layouts[surface], face, self.kind)
@@ -331,7 +362,12 @@ impl Surface for Patches {
             PatchKind::Nurbs(BasisMethod::Stair) => "surfaces/nurbs_stair.wgsl",
             PatchKind::Nurbs(BasisMethod::DeBoor) => "surfaces/nurbs_de_boor.wgsl",
             PatchKind::Nurbs(BasisMethod::Extraction) => "surfaces/nurbs_extraction.wgsl",
+            PatchKind::Nurbs(BasisMethod::Power) => "surfaces/nurbs_power.wgsl",
         }
+    }
+
+    fn as_patches(&self) -> Option<&Patches> {
+        Some(self)
     }
 
     fn tables(&self, origin: DVec3) -> SurfaceTables {

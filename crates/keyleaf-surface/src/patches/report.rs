@@ -19,6 +19,9 @@ pub struct Boundary {
 pub enum Unjoined {
     /// No other boundary has the same curve with the same knots.
     Free,
+    /// No other boundary is the same curve with the same knots, but one lies along it, within a thousandth of the diagonal of the
+    /// model's box: there may be a gap to see.
+    Apart,
     /// Two other boundaries on the same curve are joined already.
     Crowded,
     /// With this join the surfaces would have only one side, as a Möbius strip has.
@@ -49,4 +52,11 @@ pub struct JoinReport {
     pub poles: Vec<Pole>,
     /// Surfaces whose u and v were exchanged, so that neighbours have the same side up. Ascending.
     pub transposed: Vec<u32>,
+}
+
+impl JoinReport {
+    /// How many boundaries lie along another that they could not be joined with.
+    pub fn gaps(&self) -> usize {
+        self.unjoined.iter().filter(|(_, why)| *why != Unjoined::Free).count()
+    }
 }

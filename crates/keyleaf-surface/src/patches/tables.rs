@@ -9,12 +9,15 @@
 //! - a half-edge (4 · face + root): the half-edge that owns the edge, with bit 31 where the edge is a point; the half-edge that owns the
 //!   corner at its start, one for a whole pole; bits of three bounds (size, ball, deviation); three words of the face's normal cone: at
 //!   root 0 its axis, at root 1 cosine and sine of its angle (all 0 where there is none), else zeros;
+//!   In power form there are no spans: instead of the first of them a face has the entry in `surface_a` of its reference point, which its
+//!   coefficients follow, u fastest; they stand behind the normals;
 //! - spans, each a list of floats: `left[2..=p]`, then `right[2..=p]`; for extraction instead the matrix, row by row, a row a function.
 //!   Equal lists are stored once.
 
 use super::basis::{BasisMethod, extraction_matrix};
 use super::bound::RootBound;
 use super::normal_cone::NormalCone;
+use super::power_form::PowerForm;
 use super::span::Span;
 use super::{PatchKind, Patches};
 use crate::direction::round_up;
@@ -69,6 +72,9 @@ impl SpanTable {
 
     fn place_span(&mut self, span: &Span, kind: PatchKind) -> u32 {
         let p = span.degree;
+        if kind == PatchKind::Nurbs(BasisMethod::Power) {
+            return 0;
+        }
         if kind == PatchKind::Nurbs(BasisMethod::Extraction) {
             let rows = extraction_matrix(p, span).into_iter().take(p + 1);
             return self.place(rows.flat_map(|row| row.into_iter().take(p + 1)));
@@ -97,6 +103,15 @@ pub fn tables(patches: &Patches, origin: DVec3) -> SurfaceTables {
     b.extend(spans.words);
 
     let normals: usize = patches.surfaces.iter().map(|surface| surface.points().len()).sum();
+    let mut a: Vec<f32> = control_floats(patches, origin)
+        .chain(patches.normals.iter().flat_map(|&normal| vector_entry(normal)))
+        .collect();
+    if patches.kind == PatchKind::Nurbs(BasisMethod::Power) {
+        for face in 0..faces {
+            b[WORDS_OF_FACE * face as usize + 2] = (a.len() / 4) as u32;
+            a.extend(power_floats(patches, face, origin));
+        }
+    }
     let params = PatchParams {
         faces,
         normals: normals as u32,
@@ -106,9 +121,7 @@ pub fn tables(patches: &Patches, origin: DVec3) -> SurfaceTables {
     };
     SurfaceTables {
         params: uniform(&params),
-        a: control_floats(patches, origin)
-            .chain(patches.normals.iter().flat_map(|&normal| vector_entry(normal)))
-            .collect(),
+        a,
         b,
         heights: None,
         height_bounds: None,
@@ -124,6 +137,14 @@ fn control_floats(patches: &Patches, origin: DVec3) -> impl Iterator<Item = f32>
             [x, y, z, (weight / largest) as f32]
         })
     })
+}
+
+/// The reference point of a face, relative to the origin, and its coefficients.
+fn power_floats(patches: &Patches, face: u32, origin: DVec3) -> impl Iterator<Item = f32> {
+    let quad = patches.quad(face);
+    let form = PowerForm::of(&quad);
+    let coefficients = form.coefficients.into_iter().flat_map(|c| c.as_vec4().to_array());
+    vector_entry(form.reference - origin).into_iter().chain(coefficients)
 }
 
 fn face_words(patches: &Patches, spans: &mut SpanTable) -> Vec<u32> {

@@ -1,0 +1,175 @@
+//! `keyleaf accuracy`: what accuracy costs.
+//!
+//! | module | does |
+//! |---|---|
+//! | `studio` | pictures of a scene at changing settings, with their triangles and times |
+//! | `psnr` | how far two pictures are apart |
+//! | `culling` | ways of culling × size of the triangles (Concheiro, tables 6.3 to 6.14) |
+//! | `methods` | tessellations of the thesis and the quadtree (tables 3.1, 4.1, 6.15) |
+//! | `sampler` | a model of patches as the tessellators of `keyleaf-baseline` take it |
+//! | `bases` | methods for basis functions × degree |
+
+mod bases;
+mod culling;
+mod methods;
+mod psnr;
+mod sampler;
+mod studio;
+
+use crate::arguments::{Overrides, ReadingArguments, load_scene, parse_size};
+use crate::output;
+use crate::session::{self, DeviceReport};
+use crate::{Outcome, table};
+use clap::{Args, ValueEnum};
+use glam::UVec2;
+use keyleaf_stage::{Loaded, view_of};
+use serde::Serialize;
+use serde_json::json;
+use std::path::PathBuf;
+use studio::Setup;
+
+/// Measure what accuracy costs: error, triangles and milliseconds
+///
+/// The suite concheiro has the tables of Concheiro's thesis with keyleaf's figures, each for the first Bézier or NURBS surface of every
+/// scene. culling: triangles, PSNR and milliseconds for ways of culling × edges of 1 to 16 pixels (tables 6.3 to 6.14). methods:
+/// uniform, semi-adaptive and DABT tessellations at three qualities, and the quadtree at the same PSNR (tables 3.1, 4.1, 6.15). bases:
+/// methods for basis functions × degree, milliseconds and f32 error; it needs no scene.
+///
+/// PSNR is of the picture against one with edges of half a pixel and nothing culled. Milliseconds are the median of a frame that
+/// updates and draws.
+#[derive(Args)]
+#[command(after_help = "Examples:
+  keyleaf accuracy scenes/goblet.ron --suite concheiro
+  keyleaf accuracy scenes/torus.ron scenes/panels.ron --suite concheiro --table culling --size 1280x720
+  keyleaf accuracy --suite concheiro --table bases --json")]
+pub struct Arguments {
+    /// Scene files or models with Bézier or NURBS surfaces
+    #[arg(value_name = "SCENE", required_unless_present = "table")]
+    scenes: Vec<PathBuf>,
+    #[command(flatten)]
+    reading: ReadingArguments,
+    /// The tables of a work
+    #[arg(long, value_enum, value_name = "NAME")]
+    suite: Suite,
+    /// One table of the suite [default: all]
+    #[arg(long, value_enum, value_name = "TABLE")]
+    table: Option<Table>,
+    /// A camera of the scenes by its name; default: the first one
+    #[arg(long, value_name = "NAME")]
+    camera: Option<String>,
+    /// Size of the pictures in pixels
+    #[arg(long, value_name = "WxH", value_parser = parse_size, default_value = "800x600")]
+    size: UVec2,
+    /// Frames that are timed
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..))]
+    frames: u32,
+    /// Print the report as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// Tables of a work.
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq)]
+enum Suite {
+    /// Parametric surfaces on the GPU (thesis, A Coruña 2013)
+    Concheiro,
+}
+
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq)]
+enum Table {
+    Culling,
+    Methods,
+    Bases,
+}
+
+/// A table: what it shows, its columns and rows, and the same for machines.
+#[derive(Serialize)]
+struct Shown {
+    title: String,
+    #[serde(skip)]
+    text: Vec<(String, String)>,
+    rows: Vec<serde_json::Value>,
+}
+
+impl Shown {
+    /// Adds a part of the text: a heading, and a table.
+    fn add(&mut self, heading: &str, head: &[&str], rows: &[Vec<String>]) {
+        self.text.push((heading.to_owned(), table::format(head, rows)));
+    }
+
+    fn print(&self) -> anyhow::Result<()> {
+        output::print(&format!("\n{}", self.title))?;
+        for (heading, text) in &self.text {
+            output::print(&format!("\n{heading}\n{text}"))?;
+        }
+        Ok(())
+    }
+}
+
+/// Runs the command.
+pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
+    let Suite::Concheiro = arguments.suite;
+    let wants = |table: Table| arguments.table.is_none_or(|only| only == table);
+    // Bad input first: a device takes time to start.
+    let scenes = arguments.scenes.iter().map(|file| {
+        let loaded = load_scene(file, &arguments.reading, &Overrides::default(), quiet)?;
+        let camera = loaded.camera(arguments.camera.as_deref())?.name.clone();
+        Ok((patches_of(loaded)?, camera))
+    });
+    let scenes: Vec<(Loaded, String)> = scenes.collect::<anyhow::Result<_>>()?;
+    anyhow::ensure!(
+        !scenes.is_empty() || arguments.table == Some(Table::Bases),
+        "--table: expected a SCENE, which only the table bases does without"
+    );
+    let gpu = session::device()?;
+    let device = DeviceReport::new(&gpu);
+    let setup = Setup {
+        gpu: &gpu,
+        size: arguments.size,
+        frames: arguments.frames,
+        quiet,
+    };
+    let mut tables = Vec::new();
+    let mut done = |shown: Shown| {
+        if !arguments.json {
+            shown.print()?;
+        }
+        tables.push(shown);
+        anyhow::Ok(())
+    };
+    for (loaded, camera) in &scenes {
+        let view = loaded.view(Some(camera), arguments.size)?;
+        if wants(Table::Culling) {
+            done(culling::table(&setup, loaded, &view)?)?;
+        }
+        if wants(Table::Methods) {
+            done(methods::table(&setup, loaded, &view)?)?;
+        }
+    }
+    if wants(Table::Bases) {
+        let view = view_of(&bases::view(), arguments.size);
+        done(bases::table(&setup, &view)?)?;
+    }
+    if arguments.json {
+        output::print_json(&json!({
+            "device": device.device, "driver": device.driver, "backend": device.backend, "software": device.software,
+            "times": device.times, "size": arguments.size.to_array(), "frames": arguments.frames, "tables": tables,
+        }))?;
+    } else {
+        output::print(&format!("\n{}, times {}", device.device, device.times))?;
+    }
+    Ok(Outcome::Done)
+}
+
+/// The scene with its first Bézier or NURBS surface alone.
+fn patches_of(mut loaded: Loaded) -> anyhow::Result<Loaded> {
+    let found = loaded.objects.iter().position(|o| o.surface.as_patches().is_some());
+    let Some(found) = found else {
+        anyhow::bail!(
+            "{}: has no Bézier or NURBS surface; expected one for the suite concheiro",
+            loaded.file.display()
+        );
+    };
+    loaded.objects = vec![loaded.objects.swap_remove(found)];
+    Ok(loaded)
+}

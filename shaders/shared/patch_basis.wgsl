@@ -1,0 +1,75 @@
+// Patches as sums of control points by basis functions, which are computed for every sample. Which ones is another file: it defines
+// `fn basis(span: u32, degree: u32, f: f32, g: f32) -> Basis`.
+// requires: shared/patch.wgsl
+
+// At most seven: the p + 1 functions that are not zero, and N(k, p-1) / D(k), of which p times the differences of control points make
+// the derivative.
+struct Basis {
+    value: array<f32, 8>,
+    slope: array<f32, 8>,
+}
+
+fn patch_position(p: Patch, at: PatchCoord, u: ptr<function, Basis>, v: ptr<function, Basis>) -> vec3f {
+    let nearest = vec2u(at.f * vec2f(p.degree) + 0.5);
+    let reference = surface_a[p.base + nearest.x + nearest.y * p.stride].xyz;
+    var sum = vec4f(0.0);
+    for (var l = 0u; l <= p.degree.y; l++) {
+        var row = vec4f(0.0);
+        for (var k = 0u; k <= p.degree.x; k++) {
+            let point = surface_a[p.base + k + l * p.stride];
+            row += ((*u).value[k] * point.w) * vec4f(point.xyz - reference, 1.0);
+        }
+        sum += (*v).value[l] * row;
+    }
+    // All weights that count are zero only at a corner whose own is.
+    return select(reference, reference + sum.xyz / sum.w, sum.w > 0.0);
+}
+
+// Derivatives at a position, times the total weight: sums of differences of w (P - position).
+fn tangents_at(p: Patch, position: vec3f, u: ptr<function, Basis>, v: ptr<function, Basis>) -> Tangents {
+    var t: Tangents;
+    var weight = 0.0;
+    var value_before = vec3f(0.0);
+    var slope_before = vec3f(0.0);
+    for (var l = 0u; l <= p.degree.y; l++) {
+        var value = vec3f(0.0);
+        var slope = vec3f(0.0);
+        var row_weight = 0.0;
+        var before = vec3f(0.0);
+        for (var k = 0u; k <= p.degree.x; k++) {
+            let point = surface_a[p.base + k + l * p.stride];
+            let arm = point.w * (point.xyz - position);
+            value += (*u).value[k] * arm;
+            row_weight += (*u).value[k] * point.w;
+            if k > 0u {
+                slope += (*u).slope[k - 1u] * (arm - before);
+            }
+            before = arm;
+        }
+        weight += (*v).value[l] * row_weight;
+        t.du += (*v).value[l] * slope;
+        if l > 0u {
+            t.dv += (*v).slope[l - 1u] * (value - value_before);
+            t.duv += (*v).slope[l - 1u] * (slope - slope_before);
+        }
+        value_before = value;
+        slope_before = slope;
+    }
+    let per_weight = select(0.0, 1.0 / weight, weight > 0.0);
+    t.du *= f32(p.degree.x) * per_weight;
+    t.dv *= f32(p.degree.y) * per_weight;
+    t.duv *= f32(p.degree.x * p.degree.y) * per_weight;
+    return t;
+}
+
+fn patch_point(p: Patch, at: PatchCoord) -> vec3f {
+    var u = basis(p.spans.x, p.degree.x, at.f.x, at.g.x);
+    var v = basis(p.spans.y, p.degree.y, at.f.y, at.g.y);
+    return patch_position(p, at, &u, &v);
+}
+
+fn patch_tangents(p: Patch, at: PatchCoord) -> Tangents {
+    var u = basis(p.spans.x, p.degree.x, at.f.x, at.g.x);
+    var v = basis(p.spans.y, p.degree.y, at.f.y, at.g.y);
+    return tangents_at(p, patch_position(p, at, &u, &v), &u, &v);
+}

@@ -58,7 +58,7 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME")]
     camera: Option<String>,
     /// Size of the pictures in pixels
-    #[arg(long, value_name = "WxH", value_parser = parse_size, default_value = "800x600")]
+    #[arg(long, value_name = "WxH", value_parser = parse_size, default_value = "640x480")]
     size: UVec2,
     /// Frames that are timed
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u32).range(1..))]

@@ -13,7 +13,7 @@ import sys
 
 import obj
 
-OPEN = {"open.obj"}
+OPEN = {"open.obj", "petal.obj"}
 SMALLEST_AREA = 1e-9
 LEAST_PLANARITY = 0.5  # cosine between a corner's normal and the face's: below it, the face folds over
 

@@ -1,4 +1,4 @@
-"""Writes and reads the subset of Wavefront OBJ that the scenes use: v (with colours), vt, f, usemtl-free."""
+"""Writes and reads the subset of Wavefront OBJ that the scenes use: v (with colours), vt, f, and tags of creases."""
 
 import pathlib
 
@@ -11,9 +11,9 @@ def number(value):
     return "0" if text in ("", "-0") else text
 
 
-def write(name, comment, vertices, faces, colours=None, uvs=None, face_uvs=None):
+def write(name, comment, vertices, faces, colours=None, uvs=None, face_uvs=None, creases=()):
     """vertices: (x, y, z); faces: tuples of 0-based indices; colours: one (r, g, b) a vertex, 0 to 1;
-    uvs: (u, v), with face_uvs: one tuple of 0-based indices a face."""
+    uvs: (u, v), with face_uvs: one tuple of 0-based indices a face; creases: (a, b, sharpness)."""
     lines = [f"# {line}" for line in comment.splitlines()]
     for k, vertex in enumerate(vertices):
         colour = colours[k] if colours else ()
@@ -26,6 +26,8 @@ def write(name, comment, vertices, faces, colours=None, uvs=None, face_uvs=None)
         else:
             corners = (str(v + 1) for v in face)
         lines.append("f " + " ".join(corners))
+    # The vertices of tags count from 0.
+    lines += [f"t crease 2/1/0 {a} {b} {number(sharpness)}" for a, b, sharpness in creases]
     (SCENES / name).write_text("\n".join(lines) + "\n", encoding="ascii")
 
 
@@ -44,6 +46,6 @@ def read(path):
             corners = [text.split("/") for text in rest]
             faces.append(tuple(int(c[0]) - 1 for c in corners))
             face_uvs.append(tuple(int(c[1]) - 1 for c in corners) if len(corners[0]) > 1 else None)
-        elif word != "#":
+        elif word not in ("#", "t"):
             raise ValueError(f"{path}: unexpected line {line!r}")
     return vertices, colours, uvs, faces, face_uvs

@@ -7,7 +7,8 @@ use glam::{DMat4, DVec3};
 use keyleaf_surface::{CornerAttributes, Surface};
 use thiserror::Error;
 
-use crate::error::{ImportError, extension};
+pub use crate::control_surfaces::ControlCage;
+use crate::error::{FilePlace, ImportError, extension};
 use crate::heightmap::is_height_map;
 use crate::material::SurfaceMaterial;
 use crate::model::is_model;
@@ -15,13 +16,13 @@ use crate::note::Note;
 use crate::patch::is_patch_file;
 use crate::scene::{
     CameraPath, Colouring, HeightFieldSource, Material, NamedCamera, PatchesSource, Problem, Scene, SceneError,
-    Settings, Shape, Source, SurfaceEntry, Transform, reference,
+    Settings, Shape, ShapeName, Source, SurfaceEntry, Transform, reference,
 };
 use crate::surfaces::{self, Made};
 use crate::view::Extent;
 
 /// The file types that [`open`] knows, as an error lists them.
-pub const OPEN_EXTENSIONS: &str = ".ron (scene); .obj, .gltf, .glb, .ply, .stl (model); .bpt, .obj with 'surf', .teaset, .dat or no ending (patches); \
+pub const OPEN_EXTENSIONS: &str = ".ron (scene); .obj, .gltf, .glb, .ply, .stl, .off (model); .bpt, .obj with 'surf', .teaset, .dat or no ending (patches); \
      .png, .tif, .tiff, .exr, .r16, .raw (height map)";
 
 /// What a file that is opened directly cannot tell itself.
@@ -33,6 +34,8 @@ pub struct OpenOptions {
     pub ignore_trims: bool,
     /// Z is up in the file: it is turned by -90 degrees about X.
     pub z_up: bool,
+    /// The kind of surface that a model of polygons is the control mesh of; `None`: its polygons are drawn.
+    pub shape: Option<ShapeName>,
 }
 
 /// A scene with all that it refers to.
@@ -67,6 +70,8 @@ pub struct OpenedSurface {
     pub colouring: Colouring,
     /// The scene's settings with those of the surface.
     pub settings: Settings,
+    /// The control mesh that it is the surface of, and how that moves; `surface` is as at time 0.
+    pub cage: Option<Arc<ControlCage>>,
     /// The files that it comes from, for a program that watches them.
     pub files: Vec<PathBuf>,
 }
@@ -222,6 +227,7 @@ fn finish(scene: &Scene, entry: &SurfaceEntry, made: Made) -> OpenedSurface {
         material: made.material,
         colouring: made.colouring,
         settings: scene.settings.with(&entry.settings),
+        cage: made.cage,
         files: made.files,
     }
 }
@@ -295,11 +301,17 @@ fn open_directly(file: &Path, opened: Opened, options: &OpenOptions) -> Result<O
         Opened::HeightMap => Colouring::Terrain(Default::default()),
         Opened::Model | Opened::Patches => Colouring::Plain,
     };
+    let shape = options.shape.map_or(Shape::Flat, Shape::from);
+    if opened != Opened::Model && shape != Shape::Flat {
+        let reason = format!("only a model of polygons can be drawn as {}", shape.name());
+        return Err(ImportError::unsupported(file, FilePlace::Whole, reason).into());
+    }
     let transform = if options.z_up { Z_UP } else { Transform::default() };
     let mut entry = SurfaceEntry {
         name: stem.filter(|s| !s.trim().is_empty()).unwrap_or("surface".into()),
         source: source_of(name, opened, options),
-        surface: Shape::Flat,
+        surface: shape,
+        motion: Default::default(),
         transform,
         material: Material {
             colouring,

@@ -3,15 +3,12 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use keyleaf_surface::{
-    BasisMethod, CornerAttributes, JoinReport, NurbsSurface, PatchKind, PatchSettings, Patches, Surface, Unjoined,
-};
+use keyleaf_surface::{BasisMethod, JoinReport, NurbsSurface, PatchKind, PatchSettings, Patches, Unjoined};
 
 use crate::error::{FilePlace, ImportError};
-use crate::material::SurfaceMaterial;
 use crate::note::Note;
 use crate::patch::{PatchFileOptions, read_patches};
-use crate::scene::{BezierSource, Colouring, NurbsSource, PatchesSource, Problem, bezier_surface};
+use crate::scene::{BezierSource, NurbsSource, PatchesSource, Problem, bezier_surface};
 use crate::surfaces::{Failure, Made};
 
 /// The surfaces of a file.
@@ -74,17 +71,7 @@ fn join(
         .map_err(|error| ImportError::malformed(file, FilePlace::Whole, error.to_string()))
         .map_err(Failure::of("source"))?;
     tell(file, patches.report(), notes);
-    let shown = patches.bounding_box();
-    Ok(Made {
-        surface: Arc::new(patches),
-        corners: CornerAttributes::default(),
-        material: SurfaceMaterial::default(),
-        colouring: Colouring::Plain,
-        shown,
-        is_ground: false,
-        spacing: None,
-        files: Vec::new(),
-    })
+    Ok(Made::new(Arc::new(patches)))
 }
 
 /// Notes about the joins.

@@ -23,11 +23,13 @@ pub(crate) struct Soup {
     pub normals: Vec<[f32; 3]>,
     /// Linear RGBA of each corner; empty if there are none.
     pub colours: Vec<[f32; 4]>,
+    /// Covariance of each vertex (xx, xy, xz, yy, yz, zz); empty if there are none.
+    pub covariances: Vec<[f64; 6]>,
     /// Material of each face; empty if all faces have material 0.
     pub materials: Vec<u32>,
     /// Line of each face; empty if the format has no lines.
     pub lines: Vec<u32>,
-    /// Whether equal indices in the file mean topology (OBJ, PLY), or are an accident of storage (STL, glTF).
+    /// Whether equal indices in the file mean topology (OBJ, PLY, OFF), or are an accident of storage (STL, glTF).
     pub states_topology: bool,
 }
 

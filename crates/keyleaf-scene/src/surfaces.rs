@@ -1,5 +1,6 @@
 //! Makes the surface of a scene's entry: reads its files and hands them to `keyleaf-surface`.
 
+use std::borrow::Cow;
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -10,6 +11,7 @@ use keyleaf_surface::{
     PolygonMesh, Surface, Terrain, TerrainSettings, TextureDisplacement,
 };
 
+use crate::control_surfaces::{self, ControlCage};
 use crate::error::{FilePlace, ImportError};
 use crate::heightmap::{HeightMapOptions, read_displacement, read_height_map};
 use crate::material::SurfaceMaterial;
@@ -41,17 +43,37 @@ pub(crate) struct Made {
     pub is_ground: bool,
     /// Spacing of a height field.
     pub spacing: Option<[f64; 2]>,
+    /// The control mesh that it is the surface of.
+    pub cage: Option<Arc<ControlCage>>,
     pub files: Vec<PathBuf>,
+}
+
+impl Made {
+    /// An object without attributes, material and files.
+    pub fn new(surface: Arc<dyn Surface>) -> Self {
+        Self {
+            shown: surface.bounding_box(),
+            surface,
+            corners: CornerAttributes::default(),
+            material: SurfaceMaterial::default(),
+            colouring: Colouring::Plain,
+            is_ground: false,
+            spacing: None,
+            cage: None,
+            files: Vec::new(),
+        }
+    }
 }
 
 /// What could not be made, by the field of the entry.
 pub(crate) struct Failure {
-    pub field: &'static str,
+    pub field: Cow<'static, str>,
     pub source: Box<dyn Error + Send + Sync>,
 }
 
 impl Failure {
-    pub fn of<E: Error + Send + Sync + 'static>(field: &'static str) -> impl Fn(E) -> Self {
+    pub fn of<E: Error + Send + Sync + 'static>(field: impl Into<Cow<'static, str>>) -> impl FnOnce(E) -> Self {
+        let field = field.into();
         move |error| Self {
             field,
             source: Box::new(error),
@@ -71,7 +93,13 @@ impl Failure {
 pub(crate) fn make(file: &Path, entry: &SurfaceEntry, notes: &mut Vec<Note>) -> Result<Made, Failure> {
     let folder = file.parent().unwrap_or(Path::new(""));
     let mut made = match &entry.source {
-        Source::Mesh(path) => make_mesh(folder, &folder.join(path), entry, notes)?,
+        Source::Mesh(path) => {
+            let file = folder.join(path);
+            match entry.surface {
+                Shape::Flat | Shape::Displaced(_) => make_mesh(folder, &file, entry, notes)?,
+                _ => control_surfaces::make(folder, &file, entry, notes)?,
+            }
+        }
         Source::HeightField(source) => make_height_field(folder, source, notes)?,
         Source::Terrain(source) => make_terrain(source)?,
         Source::Patches(source) => patch_surfaces::of_file(folder, source, notes)?,
@@ -96,21 +124,14 @@ fn make_mesh(folder: &Path, file: &Path, entry: &SurfaceEntry, notes: &mut Vec<N
     notes.extend(found);
     let mut files = vec![file.to_path_buf()];
     let surface: Arc<dyn Surface> = match &entry.surface {
-        Shape::Flat => Arc::new(Mesh::new(&mesh).map_err(Failure::of("source"))?),
         Shape::Displaced(displaced) => displace(folder, &mesh, &displaced.height, &mut files, notes)?,
+        _ => Arc::new(Mesh::new(&mesh).map_err(Failure::of("source"))?),
     };
-    let shown = surface.bounding_box();
-    let corners = mesh.corners;
-    let colouring = Colouring::Plain;
     Ok(Made {
-        surface,
-        corners,
+        corners: mesh.corners,
         material,
-        colouring,
-        shown,
-        is_ground: false,
-        spacing: None,
         files,
+        ..Made::new(surface)
     })
 }
 
@@ -180,14 +201,11 @@ fn make_height_field(folder: &Path, source: &HeightFieldSource, notes: &mut Vec<
         DVec3::new(high.x, heights[0].max(heights[1]), high.z),
     );
     Ok(Made {
-        surface: Arc::new(surface),
-        corners: CornerAttributes::default(),
-        material: SurfaceMaterial::default(),
-        colouring: Colouring::Plain,
         shown,
         is_ground: true,
         spacing: Some(spacing.to_array()),
         files: vec![file],
+        ..Made::new(Arc::new(surface))
     })
 }
 
@@ -213,14 +231,9 @@ fn make_terrain(source: &TerrainSource) -> Result<Made, Failure> {
         DVec3::new(middle + cell, high + margin, -middle + cell),
     );
     Ok(Made {
-        surface: Arc::new(surface),
-        corners: CornerAttributes::default(),
-        material: SurfaceMaterial::default(),
-        colouring: Colouring::Plain,
         shown,
         is_ground: true,
-        spacing: None,
-        files: Vec::new(),
+        ..Made::new(Arc::new(surface))
     })
 }
 
@@ -233,6 +246,14 @@ fn dress(folder: &Path, material: &Material, made: &mut Made) -> Result<(), Fail
         let file = folder.join(path);
         let picture = ColourTexture::read(&file).map_err(Failure::of("material.texture"))?;
         made.material.texture = Some(Arc::new(picture));
+        made.files.push(file);
+    }
+    if let Some(path) = &material.matcap {
+        let file = folder.join(path);
+        let picture = ColourTexture::read(&file).map_err(Failure::of("material.matcap"))?;
+        // The model's own picture gives way, as it does to the scene's.
+        made.material.texture = None;
+        made.material.matcap = Some(Arc::new(picture));
         made.files.push(file);
     }
     made.colouring = match &material.colouring {

@@ -134,6 +134,14 @@ pub enum ParameterError {
         /// How many there are.
         faces: u32,
     },
+    /// The face is part of the control mesh only.
+    #[error(
+        "face {face} is not drawn: it touches a boundary, and the boundary rule is none; choose another face or rule"
+    )]
+    NotDrawn {
+        /// The face.
+        face: u32,
+    },
     /// Only surfaces with knots have parameters besides those of their faces.
     #[error("the surface has no parameters of its own; expected face,u,v")]
     NoOwnParameters,

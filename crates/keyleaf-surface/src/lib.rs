@@ -13,7 +13,9 @@
 //! | [`DisplacedTexture`] | `surfaces/displaced_texture.wgsl` | a mesh moved along its smooth normals by a texture |
 //! | [`DisplacedNoise`] | `surfaces/displaced_noise.wgsl` | the same by fractal noise of the position |
 //! | [`HeightField`] | `surfaces/height_field.wgsl`, `…_bilinear.wgsl` | a height map over a rectangle |
+//! | [`Subdivision`] | `surfaces/catmull_clark.wgsl`, `surfaces/loop.wgsl` | Catmull-Clark and Loop subdivision surfaces |
 //! | [`Patches`] | `surfaces/bezier.wgsl`, `surfaces/nurbs*.wgsl` | Bézier and NURBS surfaces, joined where their boundaries meet |
+//! | [`TrianglePatches`] | `surfaces/qas.wgsl`, `surfaces/pn.wgsl` | QAS and PN triangles: a small patch a triangle |
 //! | [`Terrain`] | `surfaces/terrain.wgsl` | a procedural terrain over a fixed square |
 //!
 //! # Practice
@@ -34,6 +36,7 @@ mod displaced;
 mod displaced_noise;
 mod displaced_texture;
 mod error;
+pub mod gaussian;
 mod height_bounds;
 mod height_field;
 mod height_map;
@@ -45,6 +48,7 @@ mod noise;
 mod patches;
 mod polygon_mesh;
 mod quad_coord;
+mod quadratic;
 mod stencil;
 mod subdivision;
 mod surface;
@@ -63,6 +67,10 @@ pub use patches::{
     Unjoined,
 };
 pub use polygon_mesh::{CornerAttributes, Faces, PolygonMesh};
-pub use subdivision::{BoundaryRule, ControlMesh, Corner, Crease, Creasing, INFINITE_SHARPNESS};
+pub use quadratic::{CornerNormals, LimitSample, LimitSamples, LoopWeights, TrianglePatchError, TrianglePatches};
+pub use subdivision::{
+    BoundaryRule, ControlMesh, Corner, Crease, Creasing, INFINITE_SHARPNESS, Subdivision, SubdivisionError,
+    SubdivisionScheme, SubdivisionSettings,
+};
 pub use surface::{OwnCoord, Surface, SurfaceBound, SurfaceFrame, SurfaceTables, TextureData};
 pub use terrain::{Terrain, TerrainSettings};

@@ -272,7 +272,11 @@ fn materials(data: &GltfData<'_>, soup: &Soup, notes: &mut Vec<Note>) -> Result<
             Some(info) => Some(data.picture(info.texture().source().index(), notes)?),
             None => None,
         };
-        materials.push(SurfaceMaterial { base_colour, texture });
+        materials.push(SurfaceMaterial {
+            base_colour,
+            texture,
+            ..SurfaceMaterial::default()
+        });
     }
     Ok(materials)
 }

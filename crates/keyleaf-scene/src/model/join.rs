@@ -255,6 +255,7 @@ mod tests {
         let material = |texture: Option<&Arc<ColourTexture>>, grey| SurfaceMaterial {
             base_colour: [grey, grey, grey, 1.0],
             texture: texture.cloned(),
+            ..SurfaceMaterial::default()
         };
         let materials = [
             material(Some(&red), 0.5),

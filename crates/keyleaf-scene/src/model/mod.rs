@@ -1,8 +1,12 @@
-//! Models: OBJ, glTF, PLY and STL files as one welded polygon mesh with one material.
+//! Models: OBJ, glTF, PLY, STL and OFF files as one welded polygon mesh with one material, or as a control mesh.
 //!
 //! Right-handed, Y up, metres, as the file has them: nothing is turned or scaled. Faces run anticlockwise seen from
 //! outside. Texture coordinates have v = 0 at the bottom of the picture. Colours are linear RGBA.
 
+mod control;
+#[cfg(test)]
+mod control_tests;
+mod covariances;
 mod gltf;
 mod gltf_data;
 #[cfg(test)]
@@ -10,8 +14,11 @@ mod gltf_tests;
 mod join;
 mod mtl;
 mod obj;
+mod obj_tags;
+mod off;
 mod ply;
 mod ply_values;
+pub(crate) mod sharpness;
 mod stl;
 #[cfg(test)]
 mod tests;
@@ -23,10 +30,14 @@ use keyleaf_surface::PolygonMesh;
 use crate::error::{ImportError, extension, read_file};
 use crate::material::SurfaceMaterial;
 use crate::note::Note;
+use crate::soup::Soup;
 use crate::weld::weld;
 
+pub use control::{ControlMeshOptions, ControlModel, CovarianceSource, read_control_mesh};
+pub use covariances::read_covariances;
+
 /// The file types of models, as an error lists them.
-pub const MODEL_EXTENSIONS: &str = ".obj, .gltf, .glb, .ply, .stl";
+pub const MODEL_EXTENSIONS: &str = ".obj, .gltf, .glb, .ply, .stl, .off";
 
 /// A model file, read.
 #[derive(Debug, Clone)]
@@ -48,7 +59,7 @@ pub struct ModelOptions {
 
 /// Whether a file name ends in one of [`MODEL_EXTENSIONS`].
 pub fn is_model(file: &Path) -> bool {
-    matches!(extension(file).as_str(), "obj" | "gltf" | "glb" | "ply" | "stl")
+    matches!(extension(file).as_str(), "obj" | "gltf" | "glb" | "ply" | "stl" | "off")
 }
 
 /// Reads a model; the ending of its name tells the format.
@@ -75,19 +86,7 @@ pub fn read_model(file: &Path, options: &ModelOptions) -> Result<Model, ImportEr
 /// Reads a model from the bytes of `file`; what it refers to is looked for beside `file`.
 fn decode(file: &Path, bytes: &[u8], options: &ModelOptions) -> Result<Model, ImportError> {
     let mut notes = Vec::new();
-    let plain = vec![SurfaceMaterial::default()];
-    let (soup, materials) = match extension(file).as_str() {
-        "obj" => {
-            let read = obj::read(file, bytes, &mut notes)?;
-            (read.soup, read.materials)
-        }
-        "ply" => (ply::read(file, bytes, &mut notes)?, plain),
-        "stl" => (stl::read(file, bytes, &mut notes)?, plain),
-        _ => {
-            let read = gltf::read(file, bytes, &mut notes)?;
-            (read.soup, read.materials)
-        }
-    };
+    let ModelFile { soup, materials, .. } = decode_polygons(file, bytes, &mut notes)?;
     let welded = weld(file, &soup, &mut notes)?;
     let mut mesh = welded.mesh;
     let material = join::join(
@@ -99,4 +98,36 @@ fn decode(file: &Path, bytes: &[u8], options: &ModelOptions) -> Result<Model, Im
         &mut notes,
     );
     Ok(Model { mesh, material, notes })
+}
+
+/// What a file states, before anything is welded.
+struct ModelFile {
+    soup: Soup,
+    materials: Vec<SurfaceMaterial>,
+    /// Subdivision tags: lines with their numbers.
+    tags: Vec<(usize, String)>,
+}
+
+fn decode_polygons(file: &Path, bytes: &[u8], notes: &mut Vec<Note>) -> Result<ModelFile, ImportError> {
+    let plain = |soup: Soup| ModelFile {
+        soup,
+        materials: vec![SurfaceMaterial::default()],
+        tags: Vec::new(),
+    };
+    Ok(match extension(file).as_str() {
+        "obj" => {
+            let obj::Obj { soup, materials, tags } = obj::read(file, bytes, notes)?;
+            ModelFile { soup, materials, tags }
+        }
+        "ply" => plain(ply::read(file, bytes, notes)?),
+        "stl" => plain(stl::read(file, bytes, notes)?),
+        "off" => plain(off::read(file, bytes, notes)?),
+        _ => {
+            let read = gltf::read(file, bytes, notes)?;
+            ModelFile {
+                materials: read.materials,
+                ..plain(read.soup)
+            }
+        }
+    })
 }

@@ -36,15 +36,21 @@ mod control_point;
 mod error;
 mod light;
 mod locate;
+mod motion;
 mod patches;
 #[cfg(test)]
 mod patches_tests;
 mod settings;
+mod shape_name;
+mod subdivision;
+#[cfg(test)]
+mod subdivision_tests;
 mod surface;
 #[cfg(test)]
 mod tests;
 mod validate;
 mod validate_patches;
+mod validate_shape;
 
 use std::path::Path;
 
@@ -56,9 +62,15 @@ pub use control_point::ControlPoint;
 pub use error::SceneError;
 pub(crate) use error::{Problem, reference};
 pub use light::{Effect, Fog, Light};
+pub use motion::{BlendTrack, GroupTrack, Motion, Track, TransformKey, WeightKey};
 pub(crate) use patches::bezier_surface;
 pub use patches::{Basis, BezierSource, NurbsPatch, NurbsSource, PatchesSource};
 pub use settings::{BackFaces, Culling, GuardBand, Metric, Settings, SettingsOverrides, Threshold};
+pub use shape_name::{ShapeName, UnknownShape};
+pub use subdivision::{
+    Boundary, Covariances, CreaseMethod, GaussianScheme, GaussianShape, LoopShape, LoopWeights, NormalCovariances,
+    QasShape, QasVariant, Sharpness, Solver, SubdivisionShape,
+};
 pub use surface::{
     Colouring, DisplacedSource, DisplacementHeight, HeightFieldSource, Interpolation, Material, NoiseHeight, Shape,
     Source, SurfaceEntry, TerrainColours, TerrainSource, TextureHeight, Transform,

@@ -4,8 +4,10 @@ use glam::{DMat4, DQuat, DVec3, EulerRot};
 use keyleaf_surface::TerrainSettings;
 use serde::{Deserialize, Serialize};
 
+use super::motion::Motion;
 use super::patches::{BezierSource, NurbsSource, PatchesSource};
 use super::settings::SettingsOverrides;
+use super::subdivision::{GaussianShape, LoopShape, QasShape, SubdivisionShape};
 
 /// One surface of a scene.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -18,6 +20,9 @@ pub struct SurfaceEntry {
     /// How a mesh is shaped; only `Flat` for the other sources. Default `Flat`.
     #[serde(default)]
     pub surface: Shape,
+    /// How its control mesh moves. Default `Still`.
+    #[serde(default)]
+    pub motion: Motion,
     /// Where it stands.
     #[serde(default)]
     pub transform: Transform,
@@ -33,7 +38,7 @@ pub struct SurfaceEntry {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub enum Source {
-    /// A model of polygons: .obj, .gltf, .glb, .ply, .stl.
+    /// A model of polygons: .obj, .gltf, .glb, .ply, .stl, .off.
     Mesh(String),
     /// A height map: .png, .tif, .exr, .r16.
     HeightField(HeightFieldSource),
@@ -180,6 +185,31 @@ pub enum Shape {
     Flat,
     /// Its polygons, moved along smooth normals.
     Displaced(DisplacedSource),
+    /// The Catmull-Clark surface of its polygons.
+    CatmullClark(SubdivisionShape),
+    /// The Loop surface of its triangles.
+    Loop(LoopShape),
+    /// A quadratic patch a triangle that follows a Loop or a butterfly surface.
+    Qas(QasShape),
+    /// A cubic patch a triangle through its vertices, with its normals (Vlachos et al. 2001).
+    PnTriangles,
+    /// The Gaussian-product surface of its polygons.
+    GaussianProduct(GaussianShape),
+}
+
+impl Shape {
+    /// The name of the variant, as a scene writes it.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Flat => "Flat",
+            Self::Displaced(_) => "Displaced",
+            Self::CatmullClark(_) => "CatmullClark",
+            Self::Loop(_) => "Loop",
+            Self::Qas(_) => "Qas",
+            Self::PnTriangles => "PnTriangles",
+            Self::GaussianProduct(_) => "GaussianProduct",
+        }
+    }
 }
 
 /// A displacement.
@@ -274,6 +304,9 @@ pub struct Material {
     /// A picture in place of the model's own, relative to the scene's folder. Needs texture coordinates; a height
     /// field and a terrain have (0..1) over the whole, Bézier and NURBS surfaces none.
     pub texture: Option<String>,
+    /// A picture of a lit sphere that fills it, looked up by the normal in view space in place of the scene's light, relative to the
+    /// scene's folder; multiplied with the other colours. Not together with a texture or a colouring. Default `None`.
+    pub matcap: Option<String>,
     /// Whether colours at the corners of the model are used, also those of several materials. Default true.
     pub vertex_colours: bool,
     /// What is added by shape. Default `Plain`.
@@ -285,6 +318,7 @@ impl Default for Material {
         Self {
             base_colour: None,
             texture: None,
+            matcap: None,
             vertex_colours: true,
             colouring: Colouring::Plain,
         }

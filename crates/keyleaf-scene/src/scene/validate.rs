@@ -6,9 +6,10 @@ use crate::MAX_COORDINATE;
 
 use super::error::Problem;
 use super::validate_patches::{check_bezier, check_nurbs, check_patches};
+use super::validate_shape::{check_motion, check_shape};
 use super::{
-    CameraPath, Colouring, DisplacementHeight, Effect, Light, Material, Metric, PathKey, Scene, Settings,
-    SettingsOverrides, Shape, Source, SurfaceEntry, TerrainSource, Threshold,
+    CameraPath, Colouring, Effect, Light, Material, Metric, PathKey, Scene, Settings, SettingsOverrides, Source,
+    SurfaceEntry, TerrainSource, Threshold,
 };
 
 pub(super) type Checked = Result<(), Problem>;
@@ -69,7 +70,7 @@ pub(super) fn validate(scene: &Scene) -> Checked {
         .try_for_each(|(i, path)| check_path(&format!("paths[{i}]"), path))
 }
 
-fn finite(field: &str, value: f64) -> Checked {
+pub(super) fn finite(field: &str, value: f64) -> Checked {
     if value.abs() <= MAX_COORDINATE {
         return Ok(());
     }
@@ -77,7 +78,7 @@ fn finite(field: &str, value: f64) -> Checked {
     Err(Problem::new(field, problem))
 }
 
-fn positive(field: &str, value: f64) -> Checked {
+pub(super) fn positive(field: &str, value: f64) -> Checked {
     finite(field, value)?;
     if value > 0.0 {
         return Ok(());
@@ -88,7 +89,7 @@ fn positive(field: &str, value: f64) -> Checked {
     ))
 }
 
-fn not_zero(field: &str, value: f64) -> Checked {
+pub(super) fn not_zero(field: &str, value: f64) -> Checked {
     finite(field, value)?;
     if value != 0.0 {
         return Ok(());
@@ -118,7 +119,7 @@ fn optional<T>(field: &str, value: Option<T>, check: impl Fn(&str, T) -> Checked
     value.map_or(Ok(()), |value| check(field, value))
 }
 
-fn vector(field: &str, value: [f64; 3]) -> Checked {
+pub(super) fn vector(field: &str, value: [f64; 3]) -> Checked {
     value.into_iter().try_for_each(|c| finite(field, c))
 }
 
@@ -231,6 +232,7 @@ fn check_surface(field: &str, surface: &SurfaceEntry, settings: &Settings) -> Ch
         Source::Bezier(bezier) => check_bezier(&source, bezier)?,
     }
     check_shape(&format!("{field}.surface"), surface)?;
+    check_motion(&format!("{field}.motion"), surface)?;
     let transform = format!("{field}.transform");
     vector(&format!("{transform}.translation"), surface.transform.translation)?;
     vector(&format!("{transform}.rotation"), surface.transform.rotation)?;
@@ -265,36 +267,24 @@ fn check_terrain(field: &str, terrain: &TerrainSource) -> Checked {
     within(&format!("{field}.contrast"), terrain.contrast, 0.0, 1.0)
 }
 
-fn check_shape(field: &str, surface: &SurfaceEntry) -> Checked {
-    let Shape::Displaced(displaced) = &surface.surface else {
-        return Ok(());
-    };
-    if !matches!(surface.source, Source::Mesh(_)) {
-        let problem = "only a Mesh can be Displaced; expected Flat";
-        return Err(Problem::new(field, problem));
-    }
-    let height = format!("{field}.height");
-    match &displaced.height {
-        DisplacementHeight::Texture(texture) => {
-            file_name(&format!("{height}.path"), &texture.path)?;
-            not_zero(&format!("{height}.amplitude"), texture.amplitude)?;
-            finite(&format!("{height}.middle"), texture.middle)
-        }
-        DisplacementHeight::Noise(noise) => {
-            not_zero(&format!("{height}.amplitude"), noise.amplitude)?;
-            positive(&format!("{height}.wavelength"), noise.wavelength)?;
-            within(&format!("{height}.octaves"), noise.octaves.into(), 1.0, 16.0)?;
-            within(&format!("{height}.gain"), noise.gain, 0.0, 1.0)
-        }
-    }
-}
-
 fn check_material(field: &str, material: &Material) -> Checked {
     if let Some(base) = &material.base_colour {
         colour(&format!("{field}.base_colour"), base, 1.0)?;
     }
     if let Some(texture) = &material.texture {
         file_name(&format!("{field}.texture"), texture)?;
+    }
+    if let Some(matcap) = &material.matcap {
+        file_name(&format!("{field}.matcap"), matcap)?;
+        let place = format!("{field}.matcap");
+        if material.texture.is_some() {
+            let problem = "a texture and a matcap; expected only one of them";
+            return Err(Problem::new(place, problem));
+        }
+        if material.colouring != Colouring::Plain {
+            let problem = "a matcap, and colours that follow the shape; expected only one of them";
+            return Err(Problem::new(place, problem));
+        }
     }
     let Colouring::Terrain(colours) = &material.colouring else {
         return Ok(());

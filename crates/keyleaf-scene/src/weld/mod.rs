@@ -5,6 +5,8 @@
 //! triangulated; faces that are there twice are dropped; vertices without a face are dropped. Corner attributes stay
 //! with their corners. Whatever is done is a note. Time O(n), but O(k²) for a concave polygon of k corners.
 
+mod control;
+
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
@@ -16,6 +18,8 @@ use crate::note::Note;
 use crate::soup::Soup;
 use crate::triangulate::{is_convex, triangulate};
 use keyleaf_surface::{CornerAttributes, Faces, PolygonMesh};
+
+pub(crate) use control::weld_control;
 
 /// From this many faces on, a mesh gets a warning: three or four leaves a face is the least there can be.
 pub const MANY_FACES: usize = 1_000_000;
@@ -161,7 +165,7 @@ fn build(file: &Path, soup: &Soup, vertex_of: &[u32], notes: &mut Vec<Note>) -> 
     match Topology::new(welded.mesh.positions.len(), welded.mesh.faces.iter()) {
         Ok(_) => Ok(welded),
         Err(source) => {
-            let origin = origin_of(soup, &faces, &source);
+            let origin = origin_of(soup, |face| faces.origin.get(face as usize).copied(), &source);
             Err(ImportError::Topology {
                 file: file.to_path_buf(),
                 source,
@@ -334,8 +338,8 @@ fn tame_uvs(mesh: &mut PolygonMesh) -> Option<(usize, [f32; 2])> {
     None
 }
 
-/// Where the faces of a topology error stand in the file, for its message.
-fn origin_of(soup: &Soup, faces: &Selection, error: &TopologyError) -> String {
+/// Where the faces of a topology error stand in the file, for its message; `origin` gives the face of the soup.
+fn origin_of(soup: &Soup, origin: impl Fn(u32) -> Option<u32>, error: &TopologyError) -> String {
     let named: Vec<u32> = match error {
         TopologyError::TooFewCorners { face, .. }
         | TopologyError::TooManyCorners { face, .. }
@@ -349,8 +353,8 @@ fn origin_of(soup: &Soup, faces: &Selection, error: &TopologyError) -> String {
     let places: Vec<String> = named
         .iter()
         .take(4)
-        .filter_map(|&face| faces.origin.get(face as usize))
-        .map(|&face| {
+        .filter_map(|&face| origin(face))
+        .map(|face| {
             soup.place_of_face(face as usize)
                 .to_string()
                 .trim_end_matches(": ")

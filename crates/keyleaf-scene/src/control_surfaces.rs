@@ -1,0 +1,300 @@
+//! Makes the surfaces whose polygons are control meshes: reads the control mesh of a scene's entry, with sharpness, covariances and
+//! motion, and hands it to `keyleaf-surface`.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use glam::DVec3;
+use keyleaf_surface::gaussian::{Conditioning, CovarianceMesh, Symmetric3};
+use keyleaf_surface::{
+    ControlMesh, Corner, CornerAttributes, CornerNormals, Crease, LimitSamples, LoopWeights, Subdivision,
+    SubdivisionScheme, SubdivisionSettings, Surface, TrianglePatches,
+};
+
+use crate::error::{FilePlace, ImportError};
+use crate::model::sharpness::{Placed, add_corners, add_creases};
+use crate::model::{ControlMeshOptions, CovarianceSource, read_control_mesh};
+use crate::motion::CageMotion;
+use crate::note::Note;
+use crate::scene::{
+    Covariances, GaussianShape, LoopShape, Motion, NormalCovariances, QasShape, QasVariant, Shape, Sharpness,
+    SubdivisionShape, SurfaceEntry, Track,
+};
+use crate::surfaces::{Failure, Made};
+
+/// A control mesh at rest, what belongs to its vertices, and how it moves.
+#[derive(Debug, Clone)]
+pub struct ControlCage {
+    /// The control mesh.
+    pub control: ControlMesh,
+    /// The covariance of each vertex (xx, xy, xz, yy, yz, zz) of a Gaussian-product surface.
+    pub covariances: Option<Vec<[f64; 6]>>,
+    /// How it moves, if it does.
+    pub motion: Option<CageMotion>,
+}
+
+impl ControlCage {
+    /// The positions of its vertices at a time in seconds, object space.
+    pub fn pose(&self, time: f64) -> Vec<DVec3> {
+        match &self.motion {
+            Some(motion) => motion.pose(time),
+            None => self.control.mesh.positions.clone(),
+        }
+    }
+
+    /// The covariances of its vertices at a time, if they have any.
+    pub fn pose_covariances(&self, time: f64) -> Option<Vec<[f64; 6]>> {
+        let covariances = self.covariances.as_ref()?;
+        Some(match &self.motion {
+            Some(motion) => motion.pose_covariances(time, covariances),
+            None => covariances.clone(),
+        })
+    }
+}
+
+/// The surface of the control mesh in `file`; a moving one is made as it is at time 0.
+pub(crate) fn make(folder: &Path, file: &Path, entry: &SurfaceEntry, notes: &mut Vec<Note>) -> Result<Made, Failure> {
+    let options = options(folder, entry);
+    let read = read_control_mesh(file, &options).map_err(Failure::of(match options.covariances {
+        CovarianceSource::File(_) => "surface.covariances",
+        _ => "source",
+    }))?;
+    notes.extend(read.notes);
+    let mut files = vec![file.to_path_buf()];
+    files.extend(read.covariance_file);
+    let mut control = read.control;
+    if let Some(sharpness) = sharpness(&entry.surface) {
+        sharpen(file, &mut control, sharpness).map_err(Failure::of("surface.sharpness"))?;
+    }
+    let motion = motion(folder, &control, &entry.motion)?;
+    files.extend(motion.iter().flat_map(|motion| motion.files.iter().cloned()));
+    let covariances = match &entry.surface {
+        Shape::GaussianProduct(shape) => Some(covariances(file, &control, read.covariances, shape, notes)?),
+        _ => None,
+    };
+    let cage = ControlCage {
+        control,
+        covariances,
+        motion,
+    };
+    let surface = surface(&cage, &entry.surface)?;
+    let corners = corner_attributes(&cage.control, surface.as_ref());
+    Ok(Made {
+        corners,
+        material: read.material,
+        files,
+        cage: Some(Arc::new(cage)),
+        ..Made::new(surface)
+    })
+}
+
+fn options(folder: &Path, entry: &SurfaceEntry) -> ControlMeshOptions {
+    let sharpness = sharpness(&entry.surface);
+    ControlMeshOptions {
+        keep_uvs: entry.material.texture.is_some(),
+        covariances: match &entry.surface {
+            Shape::GaussianProduct(shape) => match &shape.covariances {
+                Covariances::FromFile => CovarianceSource::Model,
+                Covariances::File(path) => CovarianceSource::File(folder.join(path)),
+                Covariances::Isotropic(_) | Covariances::FromNormals(_) => CovarianceSource::IfAny,
+            },
+            _ => CovarianceSource::IfAny,
+        },
+        boundary: sharpness.and_then(|s| s.boundary).map(Into::into),
+        creasing: sharpness.and_then(|s| s.creasing).map(Into::into),
+    }
+}
+
+fn sharpness(shape: &Shape) -> Option<&Sharpness> {
+    match shape {
+        Shape::CatmullClark(shape) => Some(&shape.sharpness),
+        Shape::Loop(shape) => Some(&shape.sharpness),
+        Shape::GaussianProduct(shape) => Some(&shape.sharpness),
+        Shape::Flat | Shape::Displaced(_) | Shape::Qas(_) | Shape::PnTriangles => None,
+    }
+}
+
+/// Adds what the scene lists; it counts before what the file says.
+fn sharpen(file: &Path, control: &mut ControlMesh, sharpness: &Sharpness) -> Result<(), ImportError> {
+    let creases = sharpness
+        .creases
+        .iter()
+        .enumerate()
+        .map(|(index, &(a, b, sharpness))| Placed {
+            value: Crease {
+                vertices: [a, b],
+                sharpness,
+            },
+            place: FilePlace::Part(format!("creases[{index}]")),
+        });
+    add_creases(file, control, creases)?;
+    let corners = sharpness
+        .corners
+        .iter()
+        .enumerate()
+        .map(|(index, &(vertex, sharpness))| Placed {
+            value: Corner { vertex, sharpness },
+            place: FilePlace::Part(format!("corners[{index}]")),
+        });
+    add_corners(file, control, corners)
+}
+
+fn motion(folder: &Path, control: &ControlMesh, motion: &Motion) -> Result<Option<CageMotion>, Failure> {
+    let Motion::Keys(tracks) = motion else {
+        return Ok(None);
+    };
+    let mut cage = CageMotion::new(control.mesh.positions.clone());
+    for (index, track) in tracks.iter().enumerate() {
+        let Track::Blend(blend) = track else { continue };
+        let file = folder.join(&blend.path);
+        let field = format!("motion[{index}].path");
+        let target = read_control_mesh(&file, &ControlMeshOptions::default()).map_err(Failure::of(field.clone()))?;
+        cage.add_blend(blend, &target.control.mesh.positions)
+            .map_err(Failure::of(field))?;
+        cage.files.push(file);
+    }
+    cage.add_groups(tracks).map_err(Failure::of("motion"))?;
+    Ok(Some(cage))
+}
+
+/// The attributes of the corners of the faces that the surface draws: none if it leaves out any.
+fn corner_attributes(control: &ControlMesh, surface: &dyn Surface) -> CornerAttributes {
+    if surface.topology().half_edge_count() as usize == control.mesh.faces.corner_count() {
+        CornerAttributes {
+            // The surface has normals of its own.
+            normals: None,
+            ..control.mesh.corners.clone()
+        }
+    } else {
+        CornerAttributes::default()
+    }
+}
+
+/// The covariances of a Gaussian-product surface, positive definite; `read` are those of a file.
+fn covariances(
+    file: &Path,
+    control: &ControlMesh,
+    read: Option<Vec<[f64; 6]>>,
+    shape: &GaussianShape,
+    notes: &mut Vec<Note>,
+) -> Result<Vec<[f64; 6]>, Failure> {
+    let conditioning = if shape.strict {
+        Conditioning::Strict
+    } else {
+        Conditioning::Floor
+    };
+    let control = control.clone();
+    let made = match shape.covariances {
+        Covariances::FromFile | Covariances::File(_) => {
+            let matrices: Vec<Symmetric3> = read
+                .unwrap_or_default()
+                .into_iter()
+                .map(Symmetric3::from_array)
+                .collect();
+            CovarianceMesh::new(control, &matrices, conditioning).map(|(mesh, changed)| {
+                if let Some(first) = changed.first() {
+                    let count = changed.len();
+                    let text = format!(
+                        "covariances made rounder, since they are too flat or not positive definite: {count}, the first at vertex {first}"
+                    );
+                    notes.push(Note::warning(file, text));
+                }
+                mesh
+            })
+        }
+        Covariances::Isotropic(factor) => CovarianceMesh::isotropic(control, factor),
+        Covariances::FromNormals(NormalCovariances { factor, flatness }) => {
+            CovarianceMesh::from_faces(control, factor, flatness)
+        }
+    };
+    let mesh = made.map_err(Failure::of("surface.covariances"))?;
+    let numbers = mesh
+        .covariances()
+        .iter()
+        .map(|covariance| covariance.matrix().to_array());
+    Ok(numbers.collect())
+}
+
+/// The surface of a control mesh as it is at time 0.
+fn surface(cage: &ControlCage, shape: &Shape) -> Result<Arc<dyn Surface>, Failure> {
+    let mut control = cage.control.clone();
+    control.mesh.positions = cage.pose(0.0);
+    match shape {
+        Shape::CatmullClark(shape) => catmull_clark(&control, shape),
+        Shape::Loop(shape) => loop_surface(&control, shape),
+        Shape::Qas(shape) => qas(&control, shape),
+        Shape::PnTriangles => pn_triangles(&control),
+        Shape::GaussianProduct(shape) => {
+            let covariances = cage.pose_covariances(0.0).unwrap_or_default();
+            gaussian_product(&control, &covariances, shape)
+        }
+        Shape::Flat | Shape::Displaced(_) => Err(not_yet(shape.name())),
+    }
+}
+
+fn catmull_clark(control: &ControlMesh, shape: &SubdivisionShape) -> Result<Arc<dyn Surface>, Failure> {
+    subdivide(control, SubdivisionScheme::CatmullClark, shape.isolation)
+}
+
+fn loop_surface(control: &ControlMesh, shape: &LoopShape) -> Result<Arc<dyn Surface>, Failure> {
+    let weights = match shape.weights {
+        crate::scene::LoopWeights::Loop => LoopWeights::Loop,
+        crate::scene::LoopWeights::Warren => LoopWeights::Warren,
+    };
+    subdivide(control, SubdivisionScheme::Loop(weights), shape.isolation)
+}
+
+fn subdivide(control: &ControlMesh, scheme: SubdivisionScheme, isolation: u32) -> Result<Arc<dyn Surface>, Failure> {
+    let settings = SubdivisionSettings { scheme, isolation };
+    let surface = Subdivision::new(control, settings).map_err(Failure::of("surface"))?;
+    Ok(Arc::new(surface))
+}
+
+fn qas(control: &ControlMesh, shape: &QasShape) -> Result<Arc<dyn Surface>, Failure> {
+    let patches = match shape.variant {
+        QasVariant::Interpolating => TrianglePatches::butterfly(&control.mesh),
+        QasVariant::Approximating if control.creases.is_empty() && control.corners.is_empty() => {
+            TrianglePatches::of_loop(control, LoopWeights::Loop)
+        }
+        QasVariant::Approximating => return qas_of_sharp(control),
+    };
+    Ok(Arc::new(patches.map_err(Failure::of("surface"))?))
+}
+
+/// The approximation of a Loop surface with creases, from samples of it.
+fn qas_of_sharp(control: &ControlMesh) -> Result<Arc<dyn Surface>, Failure> {
+    let settings = SubdivisionSettings {
+        scheme: SubdivisionScheme::Loop(LoopWeights::Loop),
+        ..SubdivisionSettings::default()
+    };
+    let limit = Subdivision::new(control, settings).map_err(Failure::of("surface"))?;
+    let samples = LimitSamples::of_surface(limit.topology(), |at| limit.frame(at));
+    let patches = TrianglePatches::quadratic(limit.topology(), &samples).map_err(Failure::of("surface"))?;
+    Ok(Arc::new(patches))
+}
+
+fn pn_triangles(control: &ControlMesh) -> Result<Arc<dyn Surface>, Failure> {
+    let normals = match control.mesh.corners.normals {
+        Some(_) => CornerNormals::OfMesh,
+        None => CornerNormals::AngleWeighted,
+    };
+    let patches = TrianglePatches::point_normal(&control.mesh, normals);
+    Ok(Arc::new(patches.map_err(Failure::of("surface"))?))
+}
+
+fn gaussian_product(_: &ControlMesh, _: &[[f64; 6]], _: &GaussianShape) -> Result<Arc<dyn Surface>, Failure> {
+    Err(not_yet("Gaussian-product surfaces"))
+}
+
+/// A kind of surface that is parsed and not made.
+#[derive(Debug, thiserror::Error)]
+#[error("{0} are not drawn yet; expected Flat")]
+pub(crate) struct NotYet(&'static str);
+
+fn not_yet(what: &'static str) -> Failure {
+    Failure::of("surface")(NotYet(what))
+}
+
+#[cfg(test)]
+#[path = "control_surfaces_tests.rs"]
+mod tests;

@@ -1,0 +1,255 @@
+//! One small Bézier patch a triangle: QAS and PN triangles. Twins of `shaders/surfaces/qas.wgsl` and `pn.wgsl`.
+//!
+//! # Theory
+//!
+//! Over every triangle lie two patches, one of positions and one of normals; shading follows the latter, so that the surface looks
+//! smooth although its tangent planes jump at edges.
+//!
+//! - *QAS* (Boubekeur & Schlick 2007): both quadratic, through the limit positions and normals of a subdivision surface at the corners
+//!   and the edge middles. With e in the middle of p and q the control point is 2 e − (p + q) / 2. The limit is that of Loop's scheme,
+//!   of any surface that can be sampled, or, where the vertices must be kept, an edge middle of the modified Butterfly scheme.
+//! - *PN triangles* (Vlachos et al. 2001): a cubic patch from the corners and their normals alone.
+//!
+//! The published QAS listing repeats two arguments; here edge r lies between the corners r and r + 1.
+//!
+//! # Practice
+//!
+//! | file | does |
+//! |---|---|
+//! | `net` | Bézier triangles in polar form: points, derivatives, hulls |
+//! | `fan` | the triangles about a vertex |
+//! | `samples`, `loop_limit`, `butterfly` | what quadratic patches interpolate |
+//! | `point_normal` | the patches of PN triangles |
+//! | `bound`, `tables` | bounds, and what the GPU reads |
+
+mod bound;
+mod butterfly;
+mod error;
+mod fan;
+mod loop_limit;
+mod net;
+mod point_normal;
+mod samples;
+mod tables;
+
+pub use error::TrianglePatchError;
+pub use loop_limit::LoopWeights;
+pub use point_normal::CornerNormals;
+pub use samples::{LimitSample, LimitSamples};
+
+use crate::direction::{cross_direction, frame_normal};
+use crate::mesh::unit_or_up;
+use crate::{ControlMesh, PolygonMesh, Surface, SurfaceBound, SurfaceFrame, SurfaceTables, diamond};
+use bound::RootBound;
+use glam::DVec3;
+use keyleaf_key::{HalfEdge, ONE, Place, RootPoint, Site, Topology};
+use net::{Barycentric, PositionNet, QuadraticNet, edge_control};
+
+/// The face's parameters u and v as directions: from corner 0 to corner 1, and to corner 2.
+const DU: Barycentric = [-1.0, 1.0, 0.0];
+const DV: Barycentric = [-1.0, 0.0, 1.0];
+
+/// A normal patch whose value is shorter than this says nothing: opposite normals cancel. As in the WGSL.
+const SHORTEST_NORMAL: f64 = 1e-3;
+
+/// A surface of one Bézier patch of positions and one of normals a triangle: QAS or PN triangles.
+///
+/// It is continuous; its normals are continuous where those that it was made of are. The normal of a frame is that of the normal patch
+/// and not exactly at right angles to du and dv; where normals of the patch cancel, it is that of du × dv, and last the face's mean.
+/// A point of a mesh edge comes from the patch that owns the edge, a vertex from the owner of the corner.
+///
+/// GPU memory: 256 bytes a triangle for QAS, 320 for PN triangles.
+///
+/// ```
+/// use glam::DVec3;
+/// use keyleaf_surface::{CornerAttributes, CornerNormals, PolygonMesh, Surface, TrianglePatches};
+/// let octahedron = PolygonMesh {
+///     positions: vec![DVec3::X, DVec3::Y, DVec3::Z, -DVec3::X, -DVec3::Y, -DVec3::Z],
+///     faces: [[0, 1, 2], [1, 3, 2], [3, 4, 2], [4, 0, 2], [1, 0, 5], [3, 1, 5], [4, 3, 5], [0, 4, 5]].into_iter().collect(),
+///     corners: CornerAttributes::default(),
+/// };
+/// let round = TrianglePatches::point_normal(&octahedron, CornerNormals::AngleWeighted)?;
+/// let middle = round.frame(round.face_coord(0, 0.5, 0.0)?);
+/// assert!((middle.position.length() - 1.0).abs() < 0.12);
+/// assert!(middle.normal.angle_between(DVec3::new(1.0, 1.0, 0.0)) < 1e-7);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct TrianglePatches {
+    topology: Topology,
+    /// By face, all of one kind.
+    positions: Vec<PositionNet>,
+    normals: Vec<QuadraticNet>,
+    mean_normals: Vec<DVec3>,
+    /// By half-edge.
+    bounds: Vec<RootBound>,
+}
+
+impl TrianglePatches {
+    /// Quadratic patches through samples of a surface over the triangles of a topology (QAS).
+    ///
+    /// # Errors
+    /// [`TrianglePatchError`] if a face is no triangle, or there is not one finite sample a half-edge.
+    pub fn quadratic(topology: &Topology, samples: &LimitSamples) -> Result<Self, TrianglePatchError> {
+        error::check_triangles(topology)?;
+        samples.check(topology)?;
+        let index = |half_edge: HalfEdge| topology.half_edge_index(half_edge.face, half_edge.root) as usize;
+        let nets = (0..topology.face_count()).map(|face| {
+            let own = [0, 1, 2].map(|root| index(HalfEdge { face, root }));
+            let corners = [0, 1, 2].map(|root| samples.corners[index(corner_owner(topology, face, root))].position);
+            let middles = [0, 1, 2].map(|root| samples.edges[index(topology.half_edge_owner(face, root))].position);
+            let net = |corners: [DVec3; 3], middles: [DVec3; 3]| QuadraticNet {
+                corners,
+                edges: [0, 1, 2].map(|r| edge_control(middles[r], corners[r], corners[(r + 1) % 3])),
+            };
+            let normals = net(
+                own.map(|i| samples.corners[i].normal),
+                own.map(|i| samples.edges[i].normal),
+            );
+            (PositionNet::Quadratic(net(corners, middles)), normals)
+        });
+        Ok(Self::of_nets(topology.clone(), nets.collect()))
+    }
+
+    /// QAS of the Loop surface of a mesh without sharp edges and vertices: [`LimitSamples::of_loop`].
+    ///
+    /// # Errors
+    /// [`TrianglePatchError`] if the mesh is no surface of triangles, has sharpness, or its faces at the boundary have no surface.
+    pub fn of_loop(control: &ControlMesh, weights: LoopWeights) -> Result<Self, TrianglePatchError> {
+        let samples = LimitSamples::of_loop(control, weights)?;
+        Self::quadratic(&samples::triangles(&control.mesh)?, &samples)
+    }
+
+    /// QAS through the vertices of a mesh: [`LimitSamples::of_butterfly`].
+    ///
+    /// # Errors
+    /// [`TrianglePatchError`] if the mesh is no surface of triangles.
+    pub fn butterfly(mesh: &PolygonMesh) -> Result<Self, TrianglePatchError> {
+        Self::quadratic(&samples::triangles(mesh)?, &LimitSamples::of_butterfly(mesh)?)
+    }
+
+    /// PN triangles of a mesh. Where normals differ on both sides of an edge, the edge is the mean of what both say.
+    ///
+    /// # Errors
+    /// [`TrianglePatchError`] if the mesh is no surface of triangles, or normals are to come from the mesh and are absent or not finite.
+    pub fn point_normal(mesh: &PolygonMesh, normals: CornerNormals) -> Result<Self, TrianglePatchError> {
+        let topology = samples::triangles(mesh)?;
+        let nets = point_normal::nets(&topology, mesh, normals)?;
+        let nets = nets
+            .into_iter()
+            .map(|(positions, normals)| (PositionNet::Cubic(positions), normals));
+        Ok(Self::of_nets(topology, nets.collect()))
+    }
+
+    fn of_nets(topology: Topology, nets: Vec<(PositionNet, QuadraticNet)>) -> Self {
+        let mean_normals = nets
+            .iter()
+            .map(|(positions, normals)| mean_normal(positions, normals))
+            .collect();
+        let (positions, normals): (Vec<_>, Vec<_>) = nets.into_iter().unzip();
+        let bounds = bound::of_roots(&topology, &positions);
+        Self {
+            topology,
+            positions,
+            normals,
+            mean_normals,
+            bounds,
+        }
+    }
+
+    /// The face and the barycentric coordinates at which all addresses of a point evaluate its position.
+    fn canonical(&self, at: RootPoint) -> (u32, Barycentric) {
+        let on = |HalfEdge { face, root }: HalfEdge, t: u32| {
+            let (x, y) = (ONE - t, t);
+            (face, barycentric(RootPoint { face, root, x, y }))
+        };
+        match Site::of(&self.topology, at) {
+            Site::Vertex { owner, .. } => on(owner, 0),
+            Site::Edge { owner, t } => on(owner, t),
+            _ => (at.face, barycentric(at)),
+        }
+    }
+}
+
+/// The half-edge from which all faces about a vertex take its position.
+fn corner_owner(topology: &Topology, face: u32, root: u32) -> HalfEdge {
+    let owner = topology.vertex_owner(topology.vertex(face, root));
+    owner.unwrap_or(HalfEdge { face, root })
+}
+
+/// Both addresses of a point on a spoke have the same.
+fn barycentric(at: RootPoint) -> Barycentric {
+    let [x, y, z] = [at.x, at.y, at.z()].map(|weight| f64::from(weight) / f64::from(ONE));
+    let mut b = [z / 3.0; 3];
+    b[at.root as usize] += x;
+    b[(at.root as usize + 1) % 3] += y;
+    b
+}
+
+/// Of the triangle of the corners; without area, of the normals at them.
+fn mean_normal(positions: &PositionNet, normals: &QuadraticNet) -> DVec3 {
+    let controls = positions.controls();
+    cross_direction(controls[1] - controls[0], controls[2] - controls[0])
+        .unwrap_or_else(|| unit_or_up(normals.corners.iter().sum()))
+}
+
+impl Surface for TrianglePatches {
+    fn topology(&self) -> &Topology {
+        &self.topology
+    }
+
+    fn point(&self, at: RootPoint) -> DVec3 {
+        let (face, b) = self.canonical(at);
+        self.positions[face as usize].point(b)
+    }
+
+    fn frame(&self, at: RootPoint) -> SurfaceFrame {
+        let face = at.face as usize;
+        let (net, b) = (&self.positions[face], barycentric(at));
+        let [du, dv] = [DU, DV].map(|h| net.derivative(b, h));
+        let smooth = self.normals[face].polar(b, b);
+        let normal = if smooth.length() > SHORTEST_NORMAL {
+            smooth.normalize()
+        } else {
+            frame_normal(du, dv, net.second_derivative(b, DU, DV), self.mean_normals[face])
+        };
+        SurfaceFrame {
+            position: self.point(at),
+            du,
+            dv,
+            normal,
+        }
+    }
+
+    fn bound(&self, leaf: &Place) -> SurfaceBound {
+        let RootBound { size, deviation } = self.bounds[self.topology.half_edge_index(leaf.face, leaf.root) as usize];
+        let scale = diamond::level_scale(leaf.level);
+        let radius = size * diamond::ball_scale(leaf.level);
+        SurfaceBound {
+            centre: self.point(diamond::centre(leaf)),
+            radius,
+            size: size * scale,
+            guard: 2.0 * radius,
+            deviation: deviation * scale * scale,
+        }
+    }
+
+    fn bounding_box(&self) -> (DVec3, DVec3) {
+        let controls = || self.positions.iter().flat_map(PositionNet::controls);
+        (
+            controls().fold(DVec3::INFINITY, DVec3::min),
+            controls().fold(DVec3::NEG_INFINITY, DVec3::max),
+        )
+    }
+
+    fn shader(&self) -> &'static str {
+        match self.positions.first() {
+            Some(PositionNet::Cubic(_)) => "surfaces/pn.wgsl",
+            _ => "surfaces/qas.wgsl",
+        }
+    }
+
+    fn tables(&self, origin: DVec3) -> SurfaceTables {
+        tables::tables(self, origin)
+    }
+}

@@ -1,0 +1,146 @@
+//! The rules of Loop (1987) with creases as in Catmull-Clark subdivision (Hoppe et al. 1994).
+
+use super::Creasing;
+use super::refinement::{Child, Masks, Refinement, crease_mask};
+use super::ring::{Fan, Ring, Spoke};
+use super::sharpness::VertexRule;
+use super::stencil::Stencil;
+use crate::LoopWeights;
+
+/// The masks of Loop subdivision.
+pub struct LoopScheme(pub LoopWeights);
+
+impl Masks for LoopScheme {
+    fn corner(&self, _: &Ring, fan: &Fan, creasing: Creasing) -> Stencil {
+        let smooth = || {
+            let n = fan.spokes.len();
+            let beta = self.0.beta(n);
+            let mut stencil = Stencil(vec![(fan.vertex, 1.0 - n as f64 * beta)]);
+            fan.spokes.iter().for_each(|spoke| stencil.add(spoke.vertex, beta));
+            stencil
+        };
+        let by = |rule| match rule {
+            VertexRule::Smooth => smooth(),
+            VertexRule::Crease(ends) => crease_mask(fan, ends),
+            VertexRule::Corner => Stencil::of(fan.vertex),
+        };
+        match fan.rules(creasing) {
+            [(now, _), (_, 0.0)] => by(now),
+            [(now, share), (next, rest)] => Stencil::sum([(&by(now), share), (&by(next), rest)]),
+        }
+    }
+
+    fn edge(&self, ring: &Ring, ends: [u32; 2], faces: [u32; 2]) -> Stencil {
+        let mut stencil = Stencil(ends.map(|end| (end, 0.375)).to_vec());
+        for face in faces {
+            let mut corners = ring.faces[face as usize].iter();
+            if let Some(&opposite) = corners.find(|corner| !ends.contains(corner)) {
+                stencil.add(opposite, 0.125);
+            }
+        }
+        stencil
+    }
+}
+
+type Step<'a> = Refinement<'a, LoopScheme>;
+
+/// One of the four children of a triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Part {
+    /// At a corner, with corners numbered as those of the triangle.
+    Corner(usize),
+    /// In the middle; its corner k is the middle of the edge across from corner k.
+    Middle,
+}
+
+/// A child of the middle face.
+pub fn child(ring: &Ring, part: Part, weights: LoopWeights, creasing: Creasing) -> Child {
+    let masks = LoopScheme(weights);
+    let mut step = Refinement::new(ring, creasing, &masks);
+    let corner = match part {
+        Part::Middle => {
+            middle_of_own(&mut step);
+            let fans = [1, 2, 0].map(|start| fan_of_edge(&mut step, start, 1));
+            return step.finish(fans.to_vec());
+        }
+        Part::Corner(corner) => corner,
+    };
+    child_face(&mut step, corner, ring.fans[corner].own);
+    let fans = vec![
+        fan_of_corner(&mut step, corner),
+        fan_of_edge(&mut step, corner, 2),
+        fan_of_edge(&mut step, (corner + 2) % 3, 0),
+    ];
+    let Child { ring, stencils } = step.finish(fans);
+    Child {
+        ring: ring.turned(corner),
+        stencils,
+    }
+}
+
+/// The child at a corner of the face at a place of the corner's fan.
+fn child_face(step: &mut Step<'_>, corner: usize, place: usize) -> u32 {
+    step.face([corner, place, 0], |step| {
+        let after = step.ring.fans[corner].after(place);
+        vec![
+            step.corner_point(corner),
+            step.edge_point(corner, place),
+            step.edge_point(corner, after),
+        ]
+    })
+}
+
+/// The middle child of the middle face.
+fn middle_of_own(step: &mut Step<'_>) -> u32 {
+    step.face([0, 0, 1], |step| {
+        [1, 2, 0]
+            .map(|start| step.edge_point(start, step.ring.fans[start].own))
+            .to_vec()
+    })
+}
+
+fn fan_of_corner(step: &mut Step<'_>, corner: usize) -> Fan {
+    let fan = &step.ring.fans[corner];
+    Fan {
+        vertex: step.corner_point(corner),
+        sharpness: step.corner_sharpness(corner),
+        own: fan.own,
+        spokes: (0..fan.spokes.len())
+            .map(|k| step.spoke_from_corner(corner, k))
+            .collect(),
+        faces: (0..fan.faces.len()).map(|k| child_face(step, corner, k)).collect(),
+    }
+}
+
+/// The fan about the point of the edge from corner `start`, seen from the child at its end (0), in the middle (1) or at its start (2).
+fn fan_of_edge(step: &mut Step<'_>, start: usize, own: usize) -> Fan {
+    let end = (start + 1) % 3;
+    let [from, to] = [start, end].map(|corner| &step.ring.fans[corner]);
+    let vertex = step.edge_point(start, from.own);
+    // Counter-clockwise from the end of the edge.
+    let mut spokes = vec![
+        step.spoke_to_corner(end, to.after(to.own)),
+        Spoke::smooth(step.edge_point(end, to.own)),
+        Spoke::smooth(step.edge_point(start, from.after(from.own))),
+        step.spoke_to_corner(start, from.own),
+    ];
+    let mut faces = vec![
+        child_face(step, end, to.own),
+        middle_of_own(step),
+        child_face(step, start, from.own),
+    ];
+    if let (Some(before), Some(after)) = (from.face_place(-1), to.face_place(1)) {
+        let back = step.edge_point(start, before);
+        let on = step.edge_point(end, to.after(after));
+        let middle = step.face([1, from.faces[before] as usize, 1], |_| vec![back, vertex, on]);
+        spokes.extend([Spoke::smooth(back), Spoke::smooth(on)]);
+        faces.extend([child_face(step, start, before), middle, child_face(step, end, after)]);
+    }
+    Fan {
+        vertex,
+        sharpness: 0.0,
+        own,
+        spokes,
+        faces,
+    }
+}

@@ -1,0 +1,197 @@
+//! One step of subdivision about one child of the middle face of a ring: what both schemes share.
+
+use super::Creasing;
+use super::ring::{Fan, Ring, Spoke};
+use super::sharpness::{is_semi_sharp, mean_of_others};
+use super::stencil::Stencil;
+
+/// What a vertex of the finer mesh comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Source {
+    Corner(usize),
+    /// The smaller vertex first.
+    Edge([u32; 2]),
+    Face(u32),
+}
+
+/// A ring of the finer mesh, and its vertices as sums of those of the coarser ring.
+#[derive(Clone, Debug)]
+pub struct Child {
+    /// The ring.
+    pub ring: Ring,
+    /// By vertex.
+    pub stencils: Vec<Stencil>,
+}
+
+impl Child {
+    /// A sum of vertices of the child as one of vertices of the parent.
+    pub fn over_parent(&self, stencil: &Stencil) -> Stencil {
+        Stencil::sum(
+            stencil
+                .0
+                .iter()
+                .map(|&(vertex, weight)| (&self.stencils[vertex as usize], weight)),
+        )
+    }
+}
+
+/// Masks of a scheme.
+pub trait Masks {
+    /// The point of the corner of a fan.
+    fn corner(&self, ring: &Ring, fan: &Fan, creasing: Creasing) -> Stencil;
+
+    /// The point of an edge between two faces, as if it were smooth.
+    fn edge(&self, ring: &Ring, ends: [u32; 2], faces: [u32; 2]) -> Stencil;
+}
+
+/// A child in the making. Vertices and faces are numbered as they are asked for.
+pub struct Refinement<'a, M> {
+    pub ring: &'a Ring,
+    creasing: Creasing,
+    masks: &'a M,
+    /// Sharpness of the near halves of the spokes of every corner.
+    near_halves: Vec<Vec<f64>>,
+    sources: Vec<Source>,
+    stencils: Vec<Stencil>,
+    face_keys: Vec<[usize; 3]>,
+    faces: Vec<Vec<u32>>,
+}
+
+impl<'a, M: Masks> Refinement<'a, M> {
+    pub fn new(ring: &'a Ring, creasing: Creasing, masks: &'a M) -> Self {
+        Self {
+            ring,
+            creasing,
+            masks,
+            near_halves: ring
+                .fans
+                .iter()
+                .map(|fan| fan.subdivided_sharpnesses(creasing))
+                .collect(),
+            sources: Vec::new(),
+            stencils: Vec::new(),
+            face_keys: Vec::new(),
+            faces: Vec::new(),
+        }
+    }
+
+    /// The child whose corners have these fans.
+    pub fn finish(self, fans: Vec<Fan>) -> Child {
+        Child {
+            ring: Ring {
+                vertex_count: self.stencils.len(),
+                faces: self.faces,
+                fans,
+            },
+            stencils: self.stencils,
+        }
+    }
+
+    fn vertex(&mut self, source: Source, stencil: impl FnOnce(&Self) -> Stencil) -> u32 {
+        let known = self.sources.iter().position(|&known| known == source);
+        known.unwrap_or_else(|| {
+            let stencil = stencil(self);
+            self.sources.push(source);
+            self.stencils.push(stencil);
+            self.stencils.len() - 1
+        }) as u32
+    }
+
+    /// The point of a corner of the middle face.
+    pub fn corner_point(&mut self, corner: usize) -> u32 {
+        self.vertex(Source::Corner(corner), |of| {
+            of.masks.corner(of.ring, &of.ring.fans[corner], of.creasing)
+        })
+    }
+
+    /// The point of a spoke.
+    pub fn edge_point(&mut self, corner: usize, spoke: usize) -> u32 {
+        let fan = &self.ring.fans[corner];
+        let (a, b) = (fan.vertex, fan.spokes[spoke].vertex);
+        self.vertex(Source::Edge([a.min(b), a.max(b)]), |of| of.edge_stencil(corner, spoke))
+    }
+
+    fn edge_stencil(&self, corner: usize, place: usize) -> Stencil {
+        let fan = &self.ring.fans[corner];
+        let spoke = fan.spokes[place];
+        let share = spoke.sharp_share(self.near_halves[corner][place], self.creasing);
+        let ends = [fan.vertex, spoke.vertex];
+        let sharp = Stencil(ends.map(|end| (end, 0.5)).to_vec());
+        if share >= 1.0 {
+            return sharp;
+        }
+        let before = (place + fan.spokes.len() - 1) % fan.spokes.len();
+        let faces = [before, place].map(|place| fan.faces[place % fan.faces.len()]);
+        let smooth = self.masks.edge(self.ring, ends, faces);
+        if share <= 0.0 {
+            return smooth;
+        }
+        Stencil::sum([(&sharp, share), (&smooth, 1.0 - share)])
+    }
+
+    /// The point of a face.
+    pub fn face_point(&mut self, face: u32) -> u32 {
+        self.vertex(Source::Face(face), |of| centroid(of.ring, face))
+    }
+
+    /// The face with this key, with vertices that are made if it is new.
+    pub fn face(&mut self, key: [usize; 3], vertices: impl FnOnce(&mut Self) -> Vec<u32>) -> u32 {
+        if let Some(known) = self.face_keys.iter().position(|&known| known == key) {
+            return known as u32;
+        }
+        let vertices = vertices(self);
+        self.face_keys.push(key);
+        self.faces.push(vertices);
+        self.faces.len() as u32 - 1
+    }
+
+    /// The near half of a spoke, from its corner.
+    pub fn spoke_from_corner(&mut self, corner: usize, place: usize) -> Spoke {
+        let old = self.ring.fans[corner].spokes[place];
+        let sharpness = self.near_halves[corner][place];
+        let far = old.far_half(self.creasing);
+        let beyond = if self.creasing == Creasing::Chaikin && is_semi_sharp(far) {
+            far
+        } else {
+            sharpness
+        };
+        Spoke {
+            vertex: self.edge_point(corner, place),
+            sharpness,
+            beyond,
+        }
+    }
+
+    /// The near half of a spoke, towards its corner.
+    pub fn spoke_to_corner(&mut self, corner: usize, place: usize) -> Spoke {
+        let halves = &self.near_halves[corner];
+        let sharpness = halves[place];
+        let beyond = match self.creasing {
+            Creasing::Uniform => sharpness,
+            Creasing::Chaikin => mean_of_others(halves, place),
+        };
+        Spoke {
+            vertex: self.corner_point(corner),
+            sharpness,
+            beyond,
+        }
+    }
+
+    /// Sharpness of the point of a corner.
+    pub fn corner_sharpness(&self, corner: usize) -> f64 {
+        super::sharpness::decremented(self.ring.fans[corner].sharpness)
+    }
+}
+
+/// The mean of the corners of a face.
+pub fn centroid(ring: &Ring, face: u32) -> Stencil {
+    let corners = &ring.faces[face as usize];
+    let weight = 1.0 / corners.len() as f64;
+    Stencil(corners.iter().map(|&vertex| (vertex, weight)).collect())
+}
+
+/// The mask of a crease, the same in both schemes: (1, 6, 1) / 8.
+pub fn crease_mask(fan: &Fan, ends: [usize; 2]) -> Stencil {
+    let [a, b] = ends.map(|end| fan.spokes[end].vertex);
+    Stencil(vec![(fan.vertex, 0.75), (a, 0.125), (b, 0.125)])
+}

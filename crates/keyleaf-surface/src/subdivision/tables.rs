@@ -1,0 +1,126 @@
+//! What the shaders of subdivision surfaces read.
+//!
+//! `surface_a`, four floats an entry: the control points of all patches, face after face, domain after domain, patch after patch: 16 a
+//! patch of a Catmull-Clark surface, u fastest; 15 of a Loop surface, those without a third exponent first, as the control points with
+//! exponents (4 0 0), (3 1 0), …, (0 4 0), (3 0 1), …, (0 0 4) of the three barycentric coordinates. Entry 0 of a patch is a position
+//! relative to the origin, the others are differences to it. Then the mean normals of the faces.
+//!
+//! `surface_b`, words:
+//! - a face: the index of its first half-edge; one more for the number of half-edges;
+//! - a half-edge, 8 words: the half-edge that owns the edge; the half-edge whose start owns the corner at its start; bits of three bounds
+//!   (size, ball, deviation); the word of the root node of the domain of this number, and the entry of its first patch; 0. A quad of a
+//!   Catmull-Clark surface and a triangle of a Loop surface have one domain, at their first half-edge; the words of the others are 0. Other
+//!   faces have a domain a corner;
+//! - nodes of the trees, one word each: with bit 31 the number of a patch within its domain, else the word of the first of four children:
+//!   at (0, 0), (1, 0), (0, 1), (1, 1) of the halves of u and v; of a triangle at corners 0, 1, 2 and in the middle. The corners of the
+//!   middle one are the middles of the edges across from corners 0, 1, 2. Faces with the same neighbourhood share nodes.
+
+use super::Subdivision;
+use super::addresses::corner_owner;
+use super::neighbourhoods::Neighbourhoods;
+use super::tree::Node;
+use crate::direction::round_up;
+use crate::mesh::{POSITION_ERROR, vector_entry};
+use crate::surface::uniform;
+use crate::{Surface, SurfaceTables};
+use encase::ShaderType;
+use glam::DVec3;
+
+/// A node that is a patch.
+const PATCH: u32 = 1 << 31;
+
+const WORDS_OF_HALF_EDGE: usize = 8;
+
+/// The uniform `surface`.
+#[derive(ShaderType)]
+struct SubdivisionParams {
+    faces: u32,
+    /// The entry of `surface_a` of the first normal.
+    normals: u32,
+    /// The word of `surface_b` of the first half-edge.
+    half_edges: u32,
+    /// The word of `surface_b` of the first node.
+    nodes: u32,
+    /// The rounding error of a position, from above.
+    margin: f32,
+}
+
+/// The tables for positions relative to `origin`.
+pub fn tables(surface: &Subdivision, origin: DVec3) -> SurfaceTables {
+    let topology = surface.topology();
+    let faces = topology.face_count();
+    let half_edges = faces as usize + 1;
+    let first_node = half_edges + WORDS_OF_HALF_EDGE * topology.half_edge_count() as usize;
+    let (nodes, roots) = node_words(&surface.neighbourhoods, first_node);
+    let mut b: Vec<u32> = (0..faces).map(|face| topology.first_half_edge(face)).collect();
+    b.push(topology.half_edge_count());
+    b.extend(half_edge_words(surface, &roots));
+    b.extend(nodes);
+    let params = SubdivisionParams {
+        faces,
+        normals: surface.points.len() as u32,
+        half_edges: half_edges as u32,
+        nodes: first_node as u32,
+        margin: round_up(POSITION_ERROR * surface.largest_coordinate(origin)),
+    };
+    SurfaceTables {
+        params: uniform(&params),
+        a: control_floats(surface, origin)
+            .chain(surface.normals.iter().flat_map(|&normal| vector_entry(normal)))
+            .collect(),
+        b,
+        heights: None,
+        height_bounds: None,
+    }
+}
+
+fn control_floats(surface: &Subdivision, origin: DVec3) -> impl Iterator<Item = f32> {
+    let patches = surface.points.chunks_exact(surface.neighbourhoods.control_points);
+    patches.flat_map(move |patch| {
+        let first = vector_entry(patch[0] - origin);
+        [first]
+            .into_iter()
+            .chain(patch[1..].iter().map(|&point| vector_entry(point)))
+            .flatten()
+    })
+}
+
+/// The nodes of all trees, and the words of their roots by kind and domain.
+fn node_words(all: &Neighbourhoods, first: usize) -> (Vec<u32>, Vec<Vec<u32>>) {
+    let mut words = Vec::new();
+    let mut roots = Vec::with_capacity(all.kinds.len());
+    for kind in &all.kinds {
+        let mut roots_of_kind = Vec::with_capacity(kind.len());
+        for tree in kind {
+            let root = (first + words.len()) as u32;
+            roots_of_kind.push(root);
+            words.extend(tree.nodes.iter().map(|node| match node {
+                Node::Patch(patch) => patch | PATCH,
+                Node::Children(child) => root + child,
+            }));
+        }
+        roots.push(roots_of_kind);
+    }
+    (words, roots)
+}
+
+fn half_edge_words<'a>(surface: &'a Subdivision, roots: &'a [Vec<u32>]) -> impl Iterator<Item = u32> + 'a {
+    let topology = surface.topology();
+    topology.roots().zip(&surface.bounds).flat_map(move |(at, bound)| {
+        let owner = topology.half_edge_owner(at.face, at.root);
+        let corner = corner_owner(topology, at.face, at.root);
+        let ring = &surface.neighbourhoods.faces[at.face as usize];
+        let domain = at.root as usize;
+        let [size, ball, deviation] = [bound.size, bound.ball, bound.deviation].map(|bound| round_up(bound).to_bits());
+        [
+            topology.half_edge_index(owner.face, owner.root),
+            topology.half_edge_index(corner.face, corner.root),
+            size,
+            ball,
+            deviation,
+            roots[ring.kind as usize].get(domain).copied().unwrap_or(0),
+            ring.first_entries.get(domain).map_or(0, |&entry| entry as u32),
+            0,
+        ]
+    })
+}

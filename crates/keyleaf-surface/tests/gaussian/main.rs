@@ -1,0 +1,9 @@
+//! Gaussian products: dual space, patches, bounds and converters, and what is lost in f32.
+
+mod bounds;
+mod conditioning;
+mod covariances;
+mod models;
+mod oracles;
+mod patches;
+mod refine;

@@ -1,0 +1,10 @@
+//! Catmull-Clark and Loop subdivision surfaces in f64: against tables of OpenSubdiv, against brute force, at hard places.
+
+mod approximation;
+mod bad_input;
+mod bounds;
+mod global_refinement;
+mod models;
+mod oracles;
+mod speed;
+mod tables;

@@ -94,6 +94,7 @@ pub fn all() -> Vec<(&'static str, Arc<dyn Surface>)> {
         ("terrain", terrain()),
     ];
     all.extend(patches());
+    all.extend(subdivided());
     all
 }
 
@@ -153,5 +154,33 @@ pub fn patches() -> Vec<(&'static str, Arc<dyn Surface>)> {
     vec![
         ("sphere", joined(vec![sphere()], nurbs)),
         ("waves", joined(waves(), PatchKind::Bezier)),
+    ]
+}
+
+/// Subdivision surfaces and their approximations.
+pub fn subdivided() -> Vec<(&'static str, Arc<dyn Surface>)> {
+    let limit = |mesh: PolygonMesh, scheme| -> Arc<dyn Surface> {
+        let settings = SubdivisionSettings { scheme, isolation: 6 };
+        Arc::new(Subdivision::new(&ControlMesh::from(mesh), settings).expect("a subdivision surface"))
+    };
+    let tetrahedron = ControlMesh::from(meshes::tetrahedron());
+    let plain = LoopWeights::Loop;
+    let qas = TrianglePatches::of_loop(&tetrahedron, plain).expect("triangles");
+    let pn = TrianglePatches::point_normal(&meshes::tetrahedron(), CornerNormals::AngleWeighted).expect("triangles");
+    vec![
+        (
+            "catmull-clark house",
+            limit(meshes::house(), SubdivisionScheme::CatmullClark),
+        ),
+        (
+            "catmull-clark open mesh",
+            limit(meshes::open(), SubdivisionScheme::CatmullClark),
+        ),
+        (
+            "loop tetrahedron",
+            limit(meshes::tetrahedron(), SubdivisionScheme::Loop(plain)),
+        ),
+        ("qas tetrahedron", Arc::new(qas)),
+        ("pn tetrahedron", Arc::new(pn)),
     ]
 }

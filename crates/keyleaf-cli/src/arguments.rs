@@ -4,6 +4,7 @@ use anyhow::{Context, bail, ensure};
 use clap::{Args, ValueEnum};
 use glam::{DVec3, UVec2};
 use keyleaf::{BackFaces, Metric, Settings, Threshold, View};
+use keyleaf_scene::scene::ShapeName;
 use keyleaf_stage::{LoadOptions, Loaded, load, view_of};
 use std::path::{Path, PathBuf};
 
@@ -28,6 +29,9 @@ pub struct ReadingArguments {
     /// Draw trimmed NURBS surfaces of a file whole, that is opened directly; else they are refused
     #[arg(long)]
     pub ignore_trims: bool,
+    /// What a model of polygons that is opened directly is drawn as: flat, catmull-clark, loop, qas, pn or gaussian-product
+    #[arg(long, value_name = "SHAPE")]
+    pub surface: Option<ShapeName>,
     /// The axis that is up in a file that is opened directly: with z it is turned by -90 degrees about X
     #[arg(long, value_name = "AXIS", value_enum, default_value = "y")]
     pub up: Up,
@@ -107,6 +111,7 @@ pub fn load_scene(
         raw_size: reading.raw_size.map(|size| size.to_array()),
         ignore_trims: reading.ignore_trims,
         z_up: reading.up == Up::Z,
+        shape: reading.surface,
     };
     let mut loaded = load(scene, &options)?;
     if !quiet {

@@ -8,8 +8,8 @@
 //! `surface_b`, words:
 //! - a face: the index of its first half-edge; one more for the number of half-edges;
 //! - a half-edge, 8 words: the half-edge that owns the edge; the half-edge whose start owns the corner at its start; bits of three bounds
-//!   (size, ball, deviation); the word of the root node of the domain of this number, and the entry of its first patch; 0. A quad of a
-//!   Catmull-Clark surface and a triangle of a Loop surface have one domain, at their first half-edge; the words of the others are 0. Other
+//!   (size, ball, deviation); the word of the root node of the domain of this number, and the entry of its first patch; its face. A quad of a
+//!   Catmull-Clark surface and a triangle of a Loop surface have one domain, at their first half-edge; both words of the others are 0. Other
 //!   faces have a domain a corner;
 //! - nodes of the trees, one word each: with bit 31 the number of a patch within its domain, else the word of the first of four children:
 //!   at (0, 0), (1, 0), (0, 1), (1, 1) of the halves of u and v; of a triangle at corners 0, 1, 2 and in the middle. The corners of the
@@ -41,7 +41,7 @@ struct SubdivisionParams {
     half_edges: u32,
     /// The word of `surface_b` of the first node.
     nodes: u32,
-    /// The rounding error of a position, from above.
+    /// The rounding error of a position, and how far terminal patches are off, from above.
     margin: f32,
 }
 
@@ -61,7 +61,7 @@ pub fn tables(surface: &Subdivision, origin: DVec3) -> SurfaceTables {
         normals: surface.points.len() as u32,
         half_edges: half_edges as u32,
         nodes: first_node as u32,
-        margin: round_up(POSITION_ERROR * surface.largest_coordinate(origin)),
+        margin: round_up(POSITION_ERROR * surface.largest_coordinate(origin) + surface.terminal_error),
     };
     SurfaceTables {
         params: uniform(&params),
@@ -120,7 +120,7 @@ fn half_edge_words<'a>(surface: &'a Subdivision, roots: &'a [Vec<u32>]) -> impl 
             deviation,
             roots[ring.kind as usize].get(domain).copied().unwrap_or(0),
             ring.first_entries.get(domain).map_or(0, |&entry| entry as u32),
-            0,
+            at.face,
         ]
     })
 }

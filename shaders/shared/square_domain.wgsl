@@ -27,15 +27,17 @@ fn square_domain(face: u32, at: FaceCoord) -> SquareDomain {
     if count == 4u {
         return SquareDomain(first, quad_coord(at));
     }
+    // At the centre the parameters of the roots differ; there it is domain 0.
+    let root = select(at.root, 0u, (at.x | at.y) == 0u);
     let is_near = is_near_root(at);
     let along = select(at.y - at.x, at.x - at.y, is_near);
-    let next = select(at.root + 1u, 0u, at.root + 1u == count);
+    let next = select(root + 1u, 0u, root + 1u == count);
     // 1 - |x - y| and 1 - x - y, with 32 fraction bits.
     let near = 2u * (ONE - along);
     let far = 2u * (ONE - at.x - at.y);
     let is_one = vec2<bool>(along == 0u, (at.x | at.y) == 0u);
     if is_near {
-        return SquareDomain(first + at.root, QuadCoord(near, far, is_one.x, is_one.y));
+        return SquareDomain(first + root, QuadCoord(near, far, is_one.x, is_one.y));
     }
     return SquareDomain(first + next, QuadCoord(far, near, is_one.y, is_one.x));
 }

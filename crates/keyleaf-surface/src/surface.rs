@@ -18,6 +18,12 @@ pub trait Surface: Send + Sync {
     /// Position, derivatives and normal of a point.
     fn frame(&self, at: RootPoint) -> SurfaceFrame;
 
+    /// The frame as the shader computes it, but in f64. Another one than [`frame`](Self::frame) only where a surface is drawn by an
+    /// approximation of itself.
+    fn drawn(&self, at: RootPoint) -> SurfaceFrame {
+        self.frame(at)
+    }
+
     /// Bounds of the diamond of a leaf; both of its halves give the same.
     fn bound(&self, leaf: &Place) -> SurfaceBound;
 

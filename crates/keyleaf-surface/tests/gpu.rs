@@ -41,7 +41,7 @@ fn positions_and_frames_agree_with_the_twin() {
         let frames = run(&points, &[]).frames;
         let (mut worst, mut worst_angle, mut worst_slope) = (0.0f64, 0.0f64, 0.0f64);
         for (&at, gpu) in points.iter().zip(&frames) {
-            let truth = surface.frame(at);
+            let truth = surface.drawn(at);
             assert_eq!(
                 gpu.point.to_array().map(f32::to_bits),
                 gpu.position.to_array().map(f32::to_bits)

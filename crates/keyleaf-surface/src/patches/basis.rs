@@ -19,7 +19,7 @@ pub enum BasisMethod {
     /// Bernstein polynomials times a matrix a span (Bézier extraction).
     Extraction,
     /// No basis functions: coefficients of powers, made once a KSQuad (Concheiro 2.2), about its middle. Cheap for samples, but at a
-    /// collapsed edge derivatives are zero only up to rounding.
+    /// collapsed edge derivatives are zero only up to rounding, and where weights of a KSQuad differ by decades digits are lost.
     Power,
 }
 

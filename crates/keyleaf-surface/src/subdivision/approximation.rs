@@ -37,7 +37,7 @@ pub fn patch_points<'a>(
 }
 
 /// The patch of a point, the point in it, and how many times the domain is as large.
-fn square_patch(tree: &Tree, mut at: SquarePoint) -> (u32, SquarePoint, f64) {
+pub fn square_patch(tree: &Tree, mut at: SquarePoint) -> (u32, SquarePoint, f64) {
     let (mut node, mut scale) = (tree.nodes[0], 1.0);
     loop {
         match node {
@@ -53,7 +53,7 @@ fn square_patch(tree: &Tree, mut at: SquarePoint) -> (u32, SquarePoint, f64) {
 }
 
 /// The same of a triangle; negative where the patch is turned by half a turn.
-fn triangle_patch(tree: &Tree, mut at: TrianglePoint) -> (u32, TrianglePoint, f64) {
+pub fn triangle_patch(tree: &Tree, mut at: TrianglePoint) -> (u32, TrianglePoint, f64) {
     let (mut node, mut scale) = (tree.nodes[0], 1.0);
     loop {
         match node {

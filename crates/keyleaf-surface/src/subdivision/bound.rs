@@ -3,11 +3,9 @@
 //! Second derivatives grow from patch to patch towards extraordinary vertices; each root has the largest of the patches that it touches.
 
 use super::SubdivisionScheme;
-use super::approximation::patch_points;
-use super::bezier::{Slopes, slopes};
-use super::neighbourhoods::Neighbourhoods;
-use super::tree::CellPlace;
-use glam::DVec3;
+use super::bezier::Slopes;
+use super::tree::{CellPlace, Tree};
+use keyleaf_key::Topology;
 
 /// Bounds of a root, for both roots of a mesh edge alike.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -60,7 +58,7 @@ impl RootBound {
 }
 
 /// The derivative bounds of a patch in the parameters of its domain.
-fn in_domain(own: Slopes, place: CellPlace) -> Slopes {
+pub fn in_domain(own: Slopes, place: CellPlace) -> Slopes {
     let scale = 1.0 / place.right[0].abs();
     Slopes {
         first: own.first.map(|x| x * scale),
@@ -75,25 +73,20 @@ fn larger(a: Slopes, b: Slopes) -> Slopes {
     }
 }
 
-/// The bounds of the roots of a face, taken alone.
+/// The bounds of the roots of a face, taken alone. `slopes` are those of a patch of a domain, in the parameters of the domain.
 pub fn of_roots(
-    all: &Neighbourhoods,
-    points: &[DVec3],
+    trees: &[Tree],
     scheme: SubdivisionScheme,
-    face: u32,
     corners: usize,
+    slopes: impl Fn(usize, u32, CellPlace) -> Slopes,
 ) -> Vec<RootBound> {
-    let domains: Vec<Vec<(CellPlace, Slopes)>> = all
-        .trees(face)
+    let domains: Vec<Vec<(CellPlace, Slopes)>> = trees
         .iter()
         .enumerate()
         .map(|(domain, tree)| {
             let patches = (0..).zip(&tree.places);
             patches
-                .map(|(patch, &place)| {
-                    let own = slopes(patch_points(all, points, face, domain, patch));
-                    (place, in_domain(own, place))
-                })
+                .map(|(patch, &place)| (place, slopes(domain, patch, place)))
                 .collect()
         })
         .collect();
@@ -122,6 +115,17 @@ pub fn of_roots(
                 };
                 RootBound::of_square(larger(below, turned), 2.0)
             }
+        })
+        .collect()
+}
+
+/// Of every mesh edge the larger of both its roots, from those of the faces taken alone.
+pub fn of_both_sides(topology: &Topology, own: Vec<RootBound>) -> Vec<RootBound> {
+    let roots = topology.roots().zip(&own);
+    roots
+        .map(|(root, &bound)| match topology.twin(root.face, root.root) {
+            Some(twin) => bound.max(own[topology.half_edge_index(twin.face, twin.root) as usize]),
+            None => bound,
         })
         .collect()
 }

@@ -4,7 +4,7 @@ use super::ring::{Fan, Ring, Spoke};
 use super::sharpness::mean_of_others;
 use super::{BoundaryRule, ControlMesh, Creasing, INFINITE_SHARPNESS, SubdivisionError, SubdivisionScheme};
 use glam::DVec3;
-use keyleaf_key::{HalfEdge, Topology};
+use keyleaf_key::{HalfEdge, RootPoint, Topology};
 use std::collections::HashMap;
 
 /// A control mesh with its adjacency and sharpness.
@@ -191,6 +191,14 @@ impl Cage {
     fn ends(&self, face: u32, root: u32) -> [u32; 2] {
         let corners = self.topology.vertices(face);
         [corners[root as usize], corners[(root as usize + 1) % corners.len()]]
+    }
+
+    /// A point of a drawn face in the control mesh.
+    pub fn place(&self, at: RootPoint) -> RootPoint {
+        RootPoint {
+            face: self.drawn[at.face as usize],
+            ..at
+        }
     }
 
     /// The ring of a face.

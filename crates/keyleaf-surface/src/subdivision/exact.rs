@@ -8,7 +8,7 @@ use super::loop_scheme::{self, Part};
 use super::refinement::Child;
 use super::ring::Ring;
 use super::sector::{Sector, SectorKind};
-use super::stencil::Stencil;
+use super::stencil::{Stencil, Vector};
 use super::{Creasing, SubdivisionScheme, box_spline, catmull_clark};
 use crate::LoopWeights;
 use crate::direction::cross_direction;
@@ -17,6 +17,25 @@ use keyleaf_key::RootPoint;
 
 /// Steps after which what is left of a cell is below the rounding of f64.
 const DEEPEST: u32 = 90;
+
+/// What control vertices have that is refined, and the point in space that a weighted sum of it is.
+pub trait Located: Vector {
+    /// The point.
+    fn position(&self) -> DVec3;
+
+    /// How fast the point moves where the sum changes at this rate.
+    fn motion(&self, rate: Self) -> DVec3;
+}
+
+impl Located for DVec3 {
+    fn position(&self) -> DVec3 {
+        *self
+    }
+
+    fn motion(&self, rate: Self) -> DVec3 {
+        rate
+    }
+}
 
 /// A point in the parameters of its domain.
 #[derive(Clone, Copy, Debug)]
@@ -29,44 +48,46 @@ pub struct ExactPoint {
     pub normal: Option<DVec3>,
 }
 
-/// A cell with the positions of its ring, about one of them: small cells keep their precision.
-struct Cell {
+/// A cell with the values of its ring, about one of them: small cells keep their precision.
+struct Cell<V> {
     ring: Ring,
-    origin: DVec3,
-    offsets: Vec<DVec3>,
+    origin: V,
+    offsets: Vec<V>,
 }
 
-impl Cell {
-    fn of_face(cage: &Cage, face: u32) -> Self {
+impl<V: Located> Cell<V> {
+    fn of_face(cage: &Cage, face: u32, value: impl Fn(u32) -> V) -> Self {
         let placed = cage.ring(face);
-        let position = |&vertex: &u32| cage.positions[vertex as usize];
-        let origin = placed.vertices.first().map_or(DVec3::ZERO, position);
+        let origin = placed.vertices.first().map_or(V::ZERO, |&vertex| value(vertex));
+        let offset = |&vertex: &u32| value(vertex).plus(origin, -1.0);
         Self {
             ring: placed.ring,
             origin,
-            offsets: placed.vertices.iter().map(|vertex| position(vertex) - origin).collect(),
+            offsets: placed.vertices.iter().map(offset).collect(),
         }
     }
 
     fn become_child(&mut self, Child { ring, stencils }: Child) {
-        let mut offsets: Vec<DVec3> = stencils.iter().map(|stencil| stencil.apply(&self.offsets)).collect();
-        let shift = offsets.first().copied().unwrap_or(DVec3::ZERO);
-        offsets.iter_mut().for_each(|offset| *offset -= shift);
-        self.origin += shift;
+        let mut offsets: Vec<V> = stencils.iter().map(|stencil| stencil.apply(&self.offsets)).collect();
+        let shift = offsets.first().copied().unwrap_or(V::ZERO);
+        offsets.iter_mut().for_each(|offset| *offset = offset.plus(shift, -1.0));
+        self.origin = self.origin.plus(shift, 1.0);
         self.offsets = offsets;
         self.ring = ring;
     }
 
-    fn offset(&self, stencil: &Stencil) -> DVec3 {
+    fn offset(&self, stencil: &Stencil) -> V {
         stencil.apply(&self.offsets)
     }
 
-    fn spline(&self, jet: Jet<DVec3>, scale: f64) -> ExactPoint {
+    fn spline(&self, jet: Jet<V>, scale: f64) -> ExactPoint {
+        let at = self.origin.plus(jet.value, 1.0);
+        let [du, dv] = [jet.du, jet.dv].map(|rate| at.motion(rate));
         ExactPoint {
-            position: self.origin + jet.value,
-            du: jet.du * scale,
-            dv: jet.dv * scale,
-            normal: cross_direction(jet.du, jet.dv),
+            position: at.position(),
+            du: du * scale,
+            dv: dv * scale,
+            normal: cross_direction(du, dv),
         }
     }
 
@@ -79,8 +100,10 @@ impl Cell {
         }
         let sector = Sector::of(fan)?;
         let limit = limit(&self.ring, &sector, scheme)?;
-        let [first, second] = limit.tangents.map(|tangent| self.offset(&tangent));
-        let arm = |k: usize| self.offset(&sector.arm(k));
+        let at = self.origin.plus(self.offset(&limit.position), 1.0);
+        let motion = |tangent: &Stencil| at.motion(self.offset(tangent));
+        let [first, second] = limit.tangents.each_ref().map(motion);
+        let arm = |k: usize| motion(&sector.arm(k));
         let across = (0..sector.faces.len()).map(|k| arm(k).cross(arm(k + 1))).sum::<DVec3>();
         let turned = |normal: DVec3| if normal.dot(across) < 0.0 { -normal } else { normal };
         let normal = match sector.kind {
@@ -92,7 +115,7 @@ impl Cell {
                 let mut wider = sector.clone();
                 wider.own += sector.faces.len().div_ceil(4) - 1;
                 let [_, far] = super::limit::tangents(&self.ring, &wider, scheme);
-                cross_direction(first, self.offset(&far))
+                cross_direction(first, motion(&far))
             }
             _ => cross_direction(first, second),
         };
@@ -105,7 +128,7 @@ impl Cell {
             own.map(flat)
         };
         Some(CornerLimit {
-            position: self.origin + self.offset(&limit.position),
+            position: at.position(),
             tangents,
             normal,
         })
@@ -114,14 +137,16 @@ impl Cell {
     /// The corner itself after so many steps that it is its limit.
     fn settled(&self, corner: usize) -> CornerLimit {
         let fan = &self.ring.fans[corner];
+        let own = self.offsets[fan.vertex as usize];
+        let at = self.origin.plus(own, 1.0);
         let arm = |k| {
             fan.spoke(k).map_or(DVec3::ZERO, |spoke| {
-                self.offsets[spoke.vertex as usize] - self.offsets[fan.vertex as usize]
+                at.motion(self.offsets[spoke.vertex as usize].plus(own, -1.0))
             })
         };
         let tangents = [arm(0), arm(1)];
         CornerLimit {
-            position: self.origin + self.offsets[fan.vertex as usize],
+            position: at.position(),
             tangents,
             normal: cross_direction(tangents[0], tangents[1]),
         }
@@ -135,8 +160,13 @@ struct CornerLimit {
     normal: Option<DVec3>,
 }
 
-/// The point of a face, in the parameters of the face.
-pub fn evaluate(cage: &Cage, scheme: SubdivisionScheme, at: RootPoint) -> ExactPoint {
+/// The point of a face, in the parameters of the face, from the values of the control vertices.
+pub fn evaluate<V: Located>(
+    cage: &Cage,
+    scheme: SubdivisionScheme,
+    at: RootPoint,
+    value: impl Fn(u32) -> V,
+) -> ExactPoint {
     match scheme {
         SubdivisionScheme::CatmullClark => {
             let DomainPoint {
@@ -144,7 +174,7 @@ pub fn evaluate(cage: &Cage, scheme: SubdivisionScheme, at: RootPoint) -> ExactP
                 at: point,
                 rates: [s, t],
             } = DomainPoint::of(at, cage.topology.corner_count(at.face));
-            let mut cell = Cell::of_face(cage, at.face);
+            let mut cell = Cell::of_face(cage, at.face, value);
             if cell.ring.fans.len() != 4 {
                 let child = catmull_clark::child(&cell.ring, domain, cage.creasing);
                 cell.become_child(child);
@@ -157,13 +187,13 @@ pub fn evaluate(cage: &Cage, scheme: SubdivisionScheme, at: RootPoint) -> ExactP
             }
         }
         SubdivisionScheme::Loop(weights) => {
-            let cell = Cell::of_face(cage, at.face);
+            let cell = Cell::of_face(cage, at.face, value);
             in_triangle(cell, cage.creasing, weights, TrianglePoint::of(at))
         }
     }
 }
 
-fn in_square(mut cell: Cell, creasing: Creasing, mut at: SquarePoint) -> ExactPoint {
+fn in_square<V: Located>(mut cell: Cell<V>, creasing: Creasing, mut at: SquarePoint) -> ExactPoint {
     let mut scale = 1.0;
     for _ in 0..DEEPEST {
         if let Some(points) = bspline::control_points(&cell.ring) {
@@ -202,7 +232,12 @@ fn of_square_corner(limit: CornerLimit, corner: usize, scale: f64) -> ExactPoint
     }
 }
 
-fn in_triangle(mut cell: Cell, creasing: Creasing, weights: LoopWeights, mut at: TrianglePoint) -> ExactPoint {
+fn in_triangle<V: Located>(
+    mut cell: Cell<V>,
+    creasing: Creasing,
+    weights: LoopWeights,
+    mut at: TrianglePoint,
+) -> ExactPoint {
     let scheme = SubdivisionScheme::Loop(weights);
     let mut scale = 1.0;
     for _ in 0..DEEPEST {

@@ -32,32 +32,32 @@
 //! | `bezier`, `approximation` | points by patches: what the GPU draws |
 //! | `addresses`, `bound`, `tables` | what the GPU reads |
 
-mod addresses;
-mod approximation;
-mod bezier;
+pub(crate) mod addresses;
+pub(crate) mod approximation;
+pub(crate) mod bezier;
 mod bicubic;
-mod bound;
+pub(crate) mod bound;
 mod box_spline;
-mod bspline;
-mod cage;
+pub(crate) mod bspline;
+pub(crate) mod cage;
 mod catmull_clark;
-mod cell;
+pub(crate) mod cell;
 mod control_mesh;
 mod error;
-mod exact;
+pub(crate) mod exact;
 mod limit;
 mod loop_scheme;
-mod neighbourhoods;
+pub(crate) mod neighbourhoods;
 mod quartic;
 mod refinement;
 mod ring;
 mod scheme;
 mod sector;
 mod sharpness;
-mod spectrum;
-mod stencil;
-mod tables;
-mod tree;
+pub(crate) mod spectrum;
+pub(crate) mod stencil;
+pub(crate) mod tables;
+pub(crate) mod tree;
 
 pub use control_mesh::{BoundaryRule, ControlMesh, Corner, Crease, Creasing, INFINITE_SHARPNESS};
 pub use error::SubdivisionError;
@@ -77,13 +77,13 @@ use spectrum::Spectra;
 use tree::Grower;
 
 /// The most control points of patches, for which the tables have room.
-const MAX_ENTRIES: usize = 1 << 28;
+pub(crate) const MAX_ENTRIES: usize = 1 << 28;
 
 /// The largest isolation: cells are then 2⁻¹⁶ of a face.
-const MAX_ISOLATION: u32 = 16;
+pub(crate) const MAX_ISOLATION: u32 = 16;
 
 /// How much greater than at their samples the error of terminal patches may be; measured up to 2.5 times at valences to 32.
-const BETWEEN_SAMPLES: f64 = 2.5;
+pub(crate) const BETWEEN_SAMPLES: f64 = 2.5;
 
 /// How a subdivision surface is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -106,7 +106,7 @@ impl Default for SubdivisionSettings {
 
 /// The limit surface of a control mesh.
 ///
-/// [`Surface::point`] and [`Surface::frame`] are those of the limit surface. What is drawn, [`approximate`](Self::approximate), is the same
+/// [`Surface::point`] and [`Surface::frame`] are those of the limit surface. What is drawn, [`Surface::drawn`], is the same
 /// but for terminal patches, see [`terminal_error`](Self::terminal_error). Bounds are of what is drawn, and allow for the difference.
 ///
 /// Faces are those of the control mesh, without those that [`BoundaryRule::None`] leaves out. At a crease or a corner the normal of a frame
@@ -229,12 +229,10 @@ impl Subdivision {
         }
     }
 
-    /// In the control mesh.
-    fn in_cage(&self, at: RootPoint) -> RootPoint {
-        RootPoint {
-            face: self.cage.drawn[at.face as usize],
-            ..at
-        }
+    /// By local refinement of the face itself.
+    fn exact(&self, at: RootPoint) -> ExactPoint {
+        let position = |vertex: u32| self.cage.positions[vertex as usize];
+        exact::evaluate(&self.cage, self.scheme, self.cage.place(at), position)
     }
 
     /// The direction of the sum of the patches' area vectors, each from its corners.
@@ -266,16 +264,12 @@ impl Subdivision {
         let topology = &self.topology;
         let of_face = |face: u32| {
             let corners = topology.corner_count(face) as usize;
-            bound::of_roots(&self.neighbourhoods, &self.points, self.scheme, face, corners)
-        };
-        let own: Vec<RootBound> = (0..topology.face_count()).flat_map(of_face).collect();
-        let roots = topology.roots().zip(&own);
-        roots
-            .map(|(root, &bound)| match topology.twin(root.face, root.root) {
-                Some(twin) => bound.max(own[topology.half_edge_index(twin.face, twin.root) as usize]),
-                None => bound,
+            bound::of_roots(self.neighbourhoods.trees(face), self.scheme, corners, |domain, patch, place| {
+                let points = approximation::patch_points(&self.neighbourhoods, &self.points, face, domain, patch);
+                bound::in_domain(bezier::slopes(points), place)
             })
-            .collect()
+        };
+        bound::of_both_sides(topology, (0..topology.face_count()).flat_map(of_face).collect())
     }
 
     /// The largest coordinate of a control point of a patch relative to the origin.
@@ -286,7 +280,7 @@ impl Subdivision {
 }
 
 /// How the drawn faces meet, without the vertices of the control mesh: faces that touch in a vertex only do not meet.
-fn drawn_topology(cage: &Cage) -> Result<Topology, SubdivisionError> {
+pub(crate) fn drawn_topology(cage: &Cage) -> Result<Topology, SubdivisionError> {
     let mut number = vec![None; cage.topology.face_count() as usize];
     for (face, &drawn) in (0u32..).zip(&cage.drawn) {
         number[drawn as usize] = Some(face);
@@ -310,12 +304,11 @@ impl Surface for Subdivision {
     }
 
     fn point(&self, at: RootPoint) -> DVec3 {
-        let at = self.in_cage(addresses::canonical(&self.topology, at));
-        exact::evaluate(&self.cage, self.scheme, at).position
+        self.exact(addresses::canonical(&self.topology, at)).position
     }
 
     fn frame(&self, at: RootPoint) -> SurfaceFrame {
-        let ExactPoint { du, dv, normal, .. } = exact::evaluate(&self.cage, self.scheme, self.in_cage(at));
+        let ExactPoint { du, dv, normal, .. } = self.exact(at);
         SurfaceFrame {
             position: self.point(at),
             du,
@@ -324,17 +317,26 @@ impl Surface for Subdivision {
         }
     }
 
+    /// [`approximate`](Self::approximate), with the position from the face that owns the edge or the vertex.
+    fn drawn(&self, at: RootPoint) -> SurfaceFrame {
+        let owner = addresses::canonical(&self.topology, at);
+        SurfaceFrame {
+            position: self.approximate(owner).position,
+            ..self.approximate(at)
+        }
+    }
+
     fn bound(&self, leaf: &Place) -> SurfaceBound {
         let bound = self.bounds[self.topology.half_edge_index(leaf.face, leaf.root) as usize];
         let ball = bound.ball * diamond::ball_scale(leaf.level);
         let scale = diamond::level_scale(leaf.level);
-        // Both the centre and the surface may be off by the error of terminal patches.
+        // On mesh edges both the centre and the surface may be off by the error of terminal patches.
         let error = 2.0 * self.terminal_error;
         SurfaceBound {
             centre: self.point(diamond::centre(leaf)),
             radius: ball + error,
             size: bound.size * scale,
-            guard: 2.0 * ball + error * f64::from(MAX_LEVEL + 2 - leaf.level),
+            guard: 2.0 * ball + 2.0 * error * f64::from(MAX_LEVEL + 2 - leaf.level),
             deviation: bound.deviation * scale * scale,
         }
     }
@@ -364,14 +366,25 @@ impl Surface for Subdivision {
 
     /// Faces have the numbers of the control mesh.
     fn face_coord(&self, face: u32, u: f64, v: f64) -> Result<RootPoint, ParameterError> {
-        let faces = self.cage.topology.face_count();
-        if face >= faces {
-            return Err(ParameterError::Face { face, faces });
-        }
-        match self.cage.drawn.binary_search(&face) {
-            Ok(drawn) => coordinate::root_point(&self.topology, drawn as u32, u, v).map_err(|error| named(error, face)),
-            Err(_) => Err(ParameterError::NotDrawn { face }),
-        }
+        face_coord(&self.cage, &self.topology, face, u, v)
+    }
+}
+
+/// The point of a face of the control mesh; `topology` is that of the drawn faces.
+pub(crate) fn face_coord(
+    cage: &Cage,
+    topology: &Topology,
+    face: u32,
+    u: f64,
+    v: f64,
+) -> Result<RootPoint, ParameterError> {
+    let faces = cage.topology.face_count();
+    if face >= faces {
+        return Err(ParameterError::Face { face, faces });
+    }
+    match cage.drawn.binary_search(&face) {
+        Ok(drawn) => coordinate::root_point(topology, drawn as u32, u, v).map_err(|error| named(error, face)),
+        Err(_) => Err(ParameterError::NotDrawn { face }),
     }
 }
 

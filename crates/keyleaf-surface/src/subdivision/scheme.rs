@@ -22,7 +22,7 @@ pub enum SubdivisionScheme {
 
 impl SubdivisionScheme {
     /// Control points of a patch.
-    pub(super) fn control_points(self) -> usize {
+    pub(crate) fn control_points(self) -> usize {
         match self {
             Self::CatmullClark => super::bicubic::CONTROL_POINTS,
             Self::Loop(_) => super::quartic::CONTROL_POINTS,

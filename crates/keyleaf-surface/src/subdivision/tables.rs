@@ -17,6 +17,7 @@
 
 use super::Subdivision;
 use super::addresses::corner_owner;
+use super::bound::RootBound;
 use super::neighbourhoods::Neighbourhoods;
 use super::tree::Node;
 use crate::direction::round_up;
@@ -25,6 +26,7 @@ use crate::surface::uniform;
 use crate::{Surface, SurfaceTables};
 use encase::ShaderType;
 use glam::DVec3;
+use keyleaf_key::{Place, Topology};
 
 /// A node that is a patch.
 const PATCH: u32 = 1 << 31;
@@ -47,30 +49,67 @@ struct SubdivisionParams {
 
 /// The tables for positions relative to `origin`.
 pub fn tables(surface: &Subdivision, origin: DVec3) -> SurfaceTables {
-    let topology = surface.topology();
-    let faces = topology.face_count();
-    let half_edges = faces as usize + 1;
-    let first_node = half_edges + WORDS_OF_HALF_EDGE * topology.half_edge_count() as usize;
-    let (nodes, roots) = node_words(&surface.neighbourhoods, first_node);
-    let mut b: Vec<u32> = (0..faces).map(|face| topology.first_half_edge(face)).collect();
-    b.push(topology.half_edge_count());
-    b.extend(half_edge_words(surface, &roots));
-    b.extend(nodes);
-    let params = SubdivisionParams {
-        faces,
-        normals: surface.points.len() as u32,
-        half_edges: half_edges as u32,
-        nodes: first_node as u32,
-        margin: round_up(POSITION_ERROR * surface.largest_coordinate(origin) + surface.terminal_error),
-    };
+    let words = TopologyWords::new(surface.topology(), &surface.neighbourhoods, &surface.bounds, |entry| entry);
+    let params = words.params(
+        surface.points.len(),
+        POSITION_ERROR * surface.largest_coordinate(origin) + surface.terminal_error,
+    );
     SurfaceTables {
-        params: uniform(&params),
+        params,
         a: control_floats(surface, origin)
             .chain(surface.normals.iter().flat_map(|&normal| vector_entry(normal)))
             .collect(),
-        b,
+        b: words.words,
         heights: None,
         height_bounds: None,
+    }
+}
+
+/// Faces, half-edges and nodes.
+pub struct TopologyWords {
+    /// `surface_b`.
+    pub words: Vec<u32>,
+    faces: u32,
+    half_edges: u32,
+    nodes: u32,
+}
+
+impl TopologyWords {
+    /// `entry_of` gives the entry of a patch of `surface_a` by that of its first control point, where control points have one entry
+    /// each and nothing else is between them.
+    pub fn new(
+        topology: &Topology,
+        all: &Neighbourhoods,
+        bounds: &[RootBound],
+        entry_of: impl Fn(usize) -> usize,
+    ) -> Self {
+        let faces = topology.face_count();
+        let half_edges = faces as usize + 1;
+        let first_node = half_edges + WORDS_OF_HALF_EDGE * topology.half_edge_count() as usize;
+        let (nodes, roots) = node_words(all, first_node);
+        let mut words: Vec<u32> = (0..faces).map(|face| topology.first_half_edge(face)).collect();
+        words.push(topology.half_edge_count());
+        for (at, bound) in topology.roots().zip(bounds) {
+            words.extend(half_edge_words(topology, all, &roots, &entry_of, &at, bound));
+        }
+        words.extend(nodes);
+        Self {
+            words,
+            faces,
+            half_edges: half_edges as u32,
+            nodes: first_node as u32,
+        }
+    }
+
+    /// The uniform, with the entry of the first normal.
+    pub fn params(&self, normals: usize, margin: f64) -> Vec<u8> {
+        uniform(&SubdivisionParams {
+            faces: self.faces,
+            normals: normals as u32,
+            half_edges: self.half_edges,
+            nodes: self.nodes,
+            margin: round_up(margin),
+        })
     }
 }
 
@@ -104,23 +143,27 @@ fn node_words(all: &Neighbourhoods, first: usize) -> (Vec<u32>, Vec<Vec<u32>>) {
     (words, roots)
 }
 
-fn half_edge_words<'a>(surface: &'a Subdivision, roots: &'a [Vec<u32>]) -> impl Iterator<Item = u32> + 'a {
-    let topology = surface.topology();
-    topology.roots().zip(&surface.bounds).flat_map(move |(at, bound)| {
-        let owner = topology.half_edge_owner(at.face, at.root);
-        let corner = corner_owner(topology, at.face, at.root);
-        let ring = &surface.neighbourhoods.faces[at.face as usize];
-        let domain = at.root as usize;
-        let [size, ball, deviation] = [bound.size, bound.ball, bound.deviation].map(|bound| round_up(bound).to_bits());
-        [
-            topology.half_edge_index(owner.face, owner.root),
-            topology.half_edge_index(corner.face, corner.root),
-            size,
-            ball,
-            deviation,
-            roots[ring.kind as usize].get(domain).copied().unwrap_or(0),
-            ring.first_entries.get(domain).map_or(0, |&entry| entry as u32),
-            at.face,
-        ]
-    })
+fn half_edge_words(
+    topology: &Topology,
+    all: &Neighbourhoods,
+    roots: &[Vec<u32>],
+    entry_of: impl Fn(usize) -> usize,
+    at: &Place,
+    bound: &RootBound,
+) -> [u32; WORDS_OF_HALF_EDGE] {
+    let owner = topology.half_edge_owner(at.face, at.root);
+    let corner = corner_owner(topology, at.face, at.root);
+    let ring = &all.faces[at.face as usize];
+    let domain = at.root as usize;
+    let [size, ball, deviation] = [bound.size, bound.ball, bound.deviation].map(|bound| round_up(bound).to_bits());
+    [
+        topology.half_edge_index(owner.face, owner.root),
+        topology.half_edge_index(corner.face, corner.root),
+        size,
+        ball,
+        deviation,
+        roots[ring.kind as usize].get(domain).copied().unwrap_or(0),
+        ring.first_entries.get(domain).map_or(0, |&entry| entry_of(entry) as u32),
+        at.face,
+    ]
 }

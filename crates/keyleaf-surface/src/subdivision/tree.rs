@@ -74,6 +74,8 @@ pub struct Tree {
     pub places: Vec<CellPlace>,
     /// Rows that give the error of terminal patches at some of their points.
     pub errors: Vec<f64>,
+    /// The patch of each of these rows.
+    pub error_patches: Vec<u32>,
 }
 
 /// How trees are grown: cells are split until they are regular, or as deep as the isolation says and their sharpness is used up, which
@@ -157,6 +159,8 @@ impl Grower {
                 .iter()
                 .flat_map(|error| error.apply_to_rows(&cell.rows, tree.width)),
         );
+        let number = tree.places.len() as u32;
+        tree.error_patches.extend(errors.iter().map(|_| number));
         Some(patch)
     }
 

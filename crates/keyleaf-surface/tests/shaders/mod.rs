@@ -4,13 +4,23 @@
 use std::path::Path;
 
 /// Every surface module.
-pub const SURFACES: [&str; 6] = [
+pub const SURFACES: [&str; 16] = [
     "surfaces/mesh.wgsl",
     "surfaces/displaced_texture.wgsl",
     "surfaces/displaced_noise.wgsl",
     "surfaces/height_field.wgsl",
     "surfaces/height_field_bilinear.wgsl",
     "surfaces/terrain.wgsl",
+    "surfaces/bezier.wgsl",
+    "surfaces/nurbs.wgsl",
+    "surfaces/nurbs_stair.wgsl",
+    "surfaces/nurbs_de_boor.wgsl",
+    "surfaces/nurbs_extraction.wgsl",
+    "surfaces/nurbs_power.wgsl",
+    "surfaces/catmull_clark.wgsl",
+    "surfaces/loop.wgsl",
+    "surfaces/qas.wgsl",
+    "surfaces/pn.wgsl",
 ];
 
 /// A file after all that it requires.

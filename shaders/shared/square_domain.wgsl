@@ -75,7 +75,7 @@ fn square_cell(face: u32, at: FaceCoord, entries: u32) -> SquareCell {
     var q = domain.at;
     var node = surface_b[surface_b[record + 5u]];
     var scale = 1.0;
-    while (node & PATCH) == 0u {
+    for (var depth = 0u; depth < MAX_DEPTH && has_children(node); depth++) {
         let right = q.u_is_one || q.u >= 0x80000000u;
         let up = q.v_is_one || q.v >= 0x80000000u;
         node = surface_b[node + select(0u, 1u, right) + select(0u, 2u, up)];

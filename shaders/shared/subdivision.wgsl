@@ -21,6 +21,13 @@ struct SubdivisionParams {
 const HALF_EDGE_WORDS: u32 = 8u;
 // A node that is a patch: bit 31, and its number within the domain. Else the word of the first of four children.
 const PATCH: u32 = 0x80000000u;
+// Trees are no deeper: 16 steps of isolation, or 10 of sharpness and those after them.
+const MAX_DEPTH: u32 = 26u;
+
+// Whether a node has children. 0 is no node: what a driver gives to idle lanes must not go on for ever.
+fn has_children(node: u32) -> bool {
+    return node != 0u && node < PATCH;
+}
 
 fn half_edge_record(half_edge: u32) -> u32 {
     return surface.half_edges + HALF_EDGE_WORDS * half_edge;

@@ -28,7 +28,7 @@ fn triangle_cell(face: u32, at: FaceCoord, entries: u32) -> TriangleCell {
     var half = 0xc0000000u; // half of what the weights add up to: 3 * 2^30
     var scale = 1.0;
     var node = surface_b[surface_b[record + 5u]];
-    while (node & PATCH) == 0u {
+    for (var depth = 0u; depth < MAX_DEPTH && has_children(node); depth++) {
         // A corner takes the child at it, the first of two where both have a half.
         let corner = select(select(select(3u, 2u, is_corner.z), 1u, is_corner.y), 0u, is_corner.x);
         if corner == 3u {

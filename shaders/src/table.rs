@@ -61,6 +61,11 @@ pub const FILES: &[(&str, &str)] = &[
         "effects/overlay_wireframe.wgsl",
         include_str!("../effects/overlay_wireframe.wgsl"),
     ),
+    ("effects/shade_lit.wgsl", include_str!("../effects/shade_lit.wgsl")),
+    (
+        "effects/shade_matcap.wgsl",
+        include_str!("../effects/shade_matcap.wgsl"),
+    ),
     ("metrics/boundary.wgsl", include_str!("../metrics/boundary.wgsl")),
     ("metrics/deviation.wgsl", include_str!("../metrics/deviation.wgsl")),
     ("metrics/distance.wgsl", include_str!("../metrics/distance.wgsl")),
@@ -127,6 +132,15 @@ pub const FILES: &[(&str, &str)] = &[
     ("shared/faces_drawn.wgsl", include_str!("../shared/faces_drawn.wgsl")),
     ("shared/flat_samples.wgsl", include_str!("../shared/flat_samples.wgsl")),
     ("shared/frame.wgsl", include_str!("../shared/frame.wgsl")),
+    ("shared/gaussian.wgsl", include_str!("../shared/gaussian.wgsl")),
+    (
+        "shared/gaussian_square.wgsl",
+        include_str!("../shared/gaussian_square.wgsl"),
+    ),
+    (
+        "shared/gaussian_triangle.wgsl",
+        include_str!("../shared/gaussian_triangle.wgsl"),
+    ),
     ("shared/grid.wgsl", include_str!("../shared/grid.wgsl")),
     ("shared/hash.wgsl", include_str!("../shared/hash.wgsl")),
     (
@@ -164,11 +178,17 @@ pub const FILES: &[(&str, &str)] = &[
     ("shared/shading.wgsl", include_str!("../shared/shading.wgsl")),
     ("shared/sky_colour.wgsl", include_str!("../shared/sky_colour.wgsl")),
     (
+        "shared/solve_adjugate.wgsl",
+        include_str!("../shared/solve_adjugate.wgsl"),
+    ),
+    ("shared/solve_ldlt.wgsl", include_str!("../shared/solve_ldlt.wgsl")),
+    (
         "shared/square_domain.wgsl",
         include_str!("../shared/square_domain.wgsl"),
     ),
     ("shared/subdivision.wgsl", include_str!("../shared/subdivision.wgsl")),
     ("shared/surface.wgsl", include_str!("../shared/surface.wgsl")),
+    ("shared/symmetric.wgsl", include_str!("../shared/symmetric.wgsl")),
     ("shared/table.wgsl", include_str!("../shared/table.wgsl")),
     ("shared/table_change.wgsl", include_str!("../shared/table_change.wgsl")),
     ("shared/table_find.wgsl", include_str!("../shared/table_find.wgsl")),
@@ -195,6 +215,22 @@ pub const FILES: &[(&str, &str)] = &[
     (
         "surfaces/displaced_texture.wgsl",
         include_str!("../surfaces/displaced_texture.wgsl"),
+    ),
+    (
+        "surfaces/gaussian_catmull_clark.wgsl",
+        include_str!("../surfaces/gaussian_catmull_clark.wgsl"),
+    ),
+    (
+        "surfaces/gaussian_catmull_clark_adjugate.wgsl",
+        include_str!("../surfaces/gaussian_catmull_clark_adjugate.wgsl"),
+    ),
+    (
+        "surfaces/gaussian_loop.wgsl",
+        include_str!("../surfaces/gaussian_loop.wgsl"),
+    ),
+    (
+        "surfaces/gaussian_loop_adjugate.wgsl",
+        include_str!("../surfaces/gaussian_loop_adjugate.wgsl"),
     ),
     (
         "surfaces/height_field.wgsl",

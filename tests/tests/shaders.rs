@@ -49,6 +49,7 @@ pub fn channels() -> Vec<Channel> {
         Material::Terrain,
         Material::Attributes,
         Material::Texture,
+        Material::Matcap,
     ] {
         for overlay in [
             Overlay::None,

@@ -124,16 +124,18 @@ fn object(opened: OpenedSurface) -> LoadedObject {
     let has_corners = opened.corners.normals.is_some() || opened.corners.colours.is_some();
     let material = match (&opened.colouring, &opened.material.texture) {
         (Colouring::Terrain(_), _) => Material::Terrain,
+        _ if opened.material.matcap.is_some() => Material::Matcap,
         (_, Some(_)) => Material::Texture,
         _ if has_corners => Material::Attributes,
         _ => Material::Plain,
     };
-    let texture = opened.material.texture.as_ref().map(|picture| ColourTexture {
+    let picture = opened.material.matcap.as_ref().or(opened.material.texture.as_ref());
+    let texture = picture.map(|picture| ColourTexture {
         width: picture.width,
         height: picture.height,
         rgba: picture.rgba.clone(),
     });
-    let uses_corners = matches!(material, Material::Texture | Material::Attributes);
+    let uses_corners = matches!(material, Material::Texture | Material::Attributes | Material::Matcap);
     let [red, green, blue, _] = opened.material.base_colour;
     LoadedObject {
         look: look_of(

@@ -14,6 +14,7 @@
 //! | [`DisplacedNoise`] | `surfaces/displaced_noise.wgsl` | the same by fractal noise of the position |
 //! | [`HeightField`] | `surfaces/height_field.wgsl`, `…_bilinear.wgsl` | a height map over a rectangle |
 //! | [`Subdivision`] | `surfaces/catmull_clark.wgsl`, `surfaces/loop.wgsl` | Catmull-Clark and Loop subdivision surfaces |
+//! | [`GaussianProduct`] | `surfaces/gaussian_catmull_clark.wgsl`, `surfaces/gaussian_loop.wgsl` | subdivision surfaces of Gaussians |
 //! | [`Patches`] | `surfaces/bezier.wgsl`, `surfaces/nurbs*.wgsl` | Bézier and NURBS surfaces, joined where their boundaries meet |
 //! | [`TrianglePatches`] | `surfaces/qas.wgsl`, `surfaces/pn.wgsl` | QAS and PN triangles: a small patch a triangle |
 //! | [`Terrain`] | `surfaces/terrain.wgsl` | a procedural terrain over a fixed square |
@@ -57,6 +58,7 @@ mod terrain;
 pub use displaced_noise::{DisplacedNoise, NoiseDisplacement};
 pub use displaced_texture::{DisplacedTexture, TextureDisplacement};
 pub use error::{HeightMapError, MeshError, ParameterError, SettingError};
+pub use gaussian::{GaussianProduct, GaussianSettings};
 pub use height_field::{HeightField, HeightFieldSettings};
 pub use height_map::{HeightMap, MAX_MAP_SIDE};
 pub use interpolation::Interpolation;

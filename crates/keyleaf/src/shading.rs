@@ -16,6 +16,8 @@ pub enum Material {
     Attributes,
     /// The same, and a base-colour texture.
     Texture,
+    /// Colours at the corners, and a picture of a lit sphere in place of the light.
+    Matcap,
 }
 
 /// What is drawn over the lit surface.
@@ -77,9 +79,13 @@ impl Channel {
             Self::Colour(material, overlay, atmosphere) => vec![
                 "draw/colour.wgsl",
                 match material {
+                    Material::Matcap => "effects/shade_matcap.wgsl",
+                    _ => "effects/shade_lit.wgsl",
+                },
+                match material {
                     Material::Plain => "effects/material_plain.wgsl",
                     Material::Terrain => "effects/material_terrain.wgsl",
-                    Material::Attributes => "effects/material_attributes.wgsl",
+                    Material::Attributes | Material::Matcap => "effects/material_attributes.wgsl",
                     Material::Texture => "effects/material_texture.wgsl",
                 },
                 match overlay {
@@ -98,12 +104,15 @@ impl Channel {
 
     /// Whether corners of the mesh have attributes in this channel.
     pub fn has_attributes(&self) -> bool {
-        matches!(self, Self::Colour(Material::Attributes | Material::Texture, ..))
+        matches!(
+            self,
+            Self::Colour(Material::Attributes | Material::Texture | Material::Matcap, ..)
+        )
     }
 
     /// Whether there is a texture in this channel.
     pub fn has_texture(&self) -> bool {
-        matches!(self, Self::Colour(Material::Texture, ..))
+        matches!(self, Self::Colour(Material::Texture | Material::Matcap, ..))
     }
 }
 

@@ -4,9 +4,10 @@
 //!
 //! The mean is no combination of the control points, so that their hull says nothing. But in dual space hulls hold. Take a part of a
 //! patch in the coordinates in which its middle has mean 0 and precision 1. With E = q̂ − 1 and e the largest norm of E at a control
-//! point, q̂ lies within e of 1 all over the part, so that |q̂⁻¹| ≤ 1 / (1 − e) if e < 1, and with hulls of control points
-//! - |μ| ≤ R = max |q̄| / (1 − e), and μ = q̄ − E μ lies within e R of the hull of q̄;
-//! - μ_h = q̂⁻¹ g with g = q̄_h − q̂_h μ, |g| ≤ G = max |q̄_h| + max |q̂_h| R, within (max |q̂_h| R + G e / (1 − e)) of the hull of q̄_h;
+//! point, q̂ lies within e of 1 all over the part. Its eigenvalues are at least m, the least at the control points and at least 1 − e, so that
+//! |q̂⁻¹| ≤ 1 / m and |q̂⁻¹ − 1| ≤ e / m if m > 0, and with hulls of control points
+//! - |μ| ≤ R = max |q̄| / m, and μ = q̄ − E μ lies within e R of the hull of q̄;
+//! - μ_h = q̂⁻¹ g with g = q̄_h − q̂_h μ, |g| ≤ G = max |q̄_h| + max |q̂_h| R, within (max |q̂_h| R + G e / m) of the hull of q̄_h;
 //! - the same for second derivatives, with g = q̄_hk − q̂_hk μ − q̂_h μ_k − q̂_k μ_h, where the values in the middle are taken out of the
 //!   products, so that the terms may cancel.
 //!
@@ -21,6 +22,7 @@
 
 use super::dual::{Dual, DualFrame, DualJet, whitening};
 use super::patch::{DualNet, DualSquare, DualTriangle, in_frame};
+use super::symmetric::Symmetric3;
 use glam::{DMat3, DVec3};
 
 /// A part is not cut if its bounds exceed what has been found by no more than this factor: of first derivatives, of the roots of
@@ -29,6 +31,12 @@ const SLACK: f64 = 1.5;
 
 /// Parts are not cut to less than one over this: derivatives would be rounding.
 const FINEST: f64 = 4096.0;
+
+/// How many times as many parts there may be where the precision may not be positive definite.
+const UNKNOWN_SHARE: usize = 16;
+
+/// Below this e, 1 − e is near enough to the least eigenvalue of q̂.
+const PLAIN_DEVIATION: f64 = 0.25;
 
 /// Bounds over a patch, in object space.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,6 +52,26 @@ pub struct MeanBounds {
 }
 
 impl MeanBounds {
+    /// Of nothing.
+    pub(super) const NONE: Self = Self {
+        low: DVec3::INFINITY,
+        high: DVec3::NEG_INFINITY,
+        first: [0.0; 2],
+        second: [0.0; 3],
+    };
+
+    /// With a box and derivatives so many times as large.
+    pub(super) fn widened(self, factor: f64) -> Self {
+        let reach = (self.high - self.low) * (factor / 2.0);
+        let middle = (self.low + self.high) / 2.0;
+        Self {
+            low: middle - reach,
+            high: middle + reach,
+            first: self.first.map(|x| x * factor),
+            second: self.second.map(|x| x * factor),
+        }
+    }
+
     fn union(self, other: Self) -> Self {
         Self {
             low: self.low.min(other.low),
@@ -70,30 +98,100 @@ impl DualTriangle {
 }
 
 fn of_patch<N: DualNet>(net: &N, directions: [N::Direction; 2], frame: &DualFrame, most: usize) -> Option<MeanBounds> {
-    let part = |net: N, scale: f64| Part::new(net, directions, frame, scale);
-    let mut parts = vec![part(net.map(|control| *control), 1.0)];
-    let mut found = parts[0].middle;
-    while parts.len() + 3 <= most.max(1) {
-        let excess = |part: &Part<N>| part.excess(&found);
-        let worst = (0..parts.len()).max_by(|&a, &b| excess(&parts[a]).total_cmp(&excess(&parts[b])))?;
-        if excess(&parts[worst]) <= SLACK {
+    let whole = Whole {
+        net: net.map(|control| *control),
+        frame: *frame,
+        scale: 1.0,
+    };
+    of_patches(vec![whole], directions, most).0[0]
+}
+
+/// A patch among those of a surface.
+pub struct Whole<N> {
+    pub net: N,
+    /// Of the control points.
+    pub frame: DualFrame,
+    /// How many times the domain in whose parameters derivatives are wanted is as large as the patch.
+    pub scale: f64,
+}
+
+/// Bounds of patches that count together: none of them need be closer than the largest that has been found on any. At most `most`
+/// parts; more only where the precision may not be positive definite. And what has been found in the middles of parts.
+pub fn of_patches<N: DualNet>(
+    patches: Vec<Whole<N>>,
+    directions: [N::Direction; 2],
+    most: usize,
+) -> (Vec<Option<MeanBounds>>, Option<MeanBounds>) {
+    let scales: Vec<f64> = patches.iter().map(|patch| patch.scale).collect();
+    let frames: Vec<DualFrame> = patches.iter().map(|patch| patch.frame).collect();
+    let mut parts: Vec<Part<N>> = patches
+        .into_iter()
+        .enumerate()
+        .map(|(patch, whole)| Part::new(whole.net, patch, directions, &whole.frame, whole.scale))
+        .collect();
+    let mut found = parts.iter().filter_map(|part| part.middle).reduce(MeanBounds::union);
+    loop {
+        let chosen = loosest(&parts, &scales, &found, most);
+        if chosen.is_empty() {
             break;
         }
-        let whole = parts.swap_remove(worst);
-        for quarter in whole.net.quarters() {
-            let quarter = part(quarter, 2.0 * whole.scale);
-            found = [found, quarter.middle].into_iter().flatten().reduce(MeanBounds::union);
-            parts.push(quarter);
+        for index in chosen {
+            let whole = parts.swap_remove(index);
+            for quarter in whole.net.quarters() {
+                let part = Part::new(
+                    quarter,
+                    whole.patch,
+                    directions,
+                    &frames[whole.patch],
+                    2.0 * whole.scale,
+                );
+                found = [found, part.middle].into_iter().flatten().reduce(MeanBounds::union);
+                parts.push(part);
+            }
         }
     }
-    let bounds = parts.iter().map(|part| part.known.map(|(bounds, _)| bounds));
-    bounds.reduce(|a, b| Some(a?.union(b?)))?
+    (united(&parts, scales.len()), found)
+}
+
+/// The parts to cut next, last one first: half of those that are too loose, and as many as there is room for. Those without bounds count
+/// as the loosest, and there is room for more of them.
+fn loosest<N: DualNet>(parts: &[Part<N>], scales: &[f64], found: &Option<MeanBounds>, most: usize) -> Vec<usize> {
+    let loose = |(index, part): (usize, &Part<N>)| {
+        let is_finest = part.scale >= FINEST * scales[part.patch];
+        let excess = if is_finest { 0.0 } else { part.excess(found) };
+        (excess > SLACK).then_some((excess, index))
+    };
+    let mut chosen: Vec<(f64, usize)> = parts.iter().enumerate().filter_map(loose).collect();
+    chosen.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let unknown = chosen.iter().filter(|(excess, _)| excess.is_infinite()).count();
+    let room = |most: usize| most.saturating_sub(parts.len()) / 3;
+    let count = (chosen.len().div_ceil(2)).max(unknown);
+    chosen.truncate(count.min(room(most).max(unknown.min(room(most * UNKNOWN_SHARE)))));
+    let mut indices: Vec<usize> = chosen.into_iter().map(|(_, index)| index).collect();
+    indices.sort_by(|a, b| b.cmp(a));
+    indices
+}
+
+/// The bounds of the patches, none of one with a part that has none.
+fn united<N>(parts: &[Part<N>], patches: usize) -> Vec<Option<MeanBounds>> {
+    let mut bounds: Vec<Option<Option<MeanBounds>>> = vec![None; patches];
+    for part in parts {
+        let own = part.known.map(|(bounds, _)| bounds);
+        let sum = &mut bounds[part.patch];
+        *sum = Some(match *sum {
+            None => own,
+            Some(sum) => sum.zip(own).map(|(sum, own)| sum.union(own)),
+        });
+    }
+    bounds.into_iter().map(Option::flatten).collect()
 }
 
 /// A part of a patch.
 struct Part<N> {
     net: N,
-    /// The parameters of the patch, in those of the part.
+    /// The number of the patch.
+    patch: usize,
+    /// The parameters of the domain, in those of the part.
     scale: f64,
     /// What its middle has, none if the precision there is not positive definite.
     middle: Option<MeanBounds>,
@@ -102,11 +200,12 @@ struct Part<N> {
 }
 
 impl<N: DualNet> Part<N> {
-    fn new(net: N, directions: [N::Direction; 2], frame: &DualFrame, scale: f64) -> Self {
-        let centred = Centred::new(&net, frame);
+    fn new(net: N, patch: usize, directions: [N::Direction; 2], frame: &DualFrame, scale: f64) -> Self {
+        let centred = Centred::new(&net, directions, frame);
         let middle = centred.as_ref().and_then(|centred| centred.middle(directions, scale));
-        let known = centred.filter(|centred| centred.deviation < 1.0);
+        let known = centred.filter(|centred| centred.least > 0.0);
         Self {
+            patch,
             scale,
             middle,
             known: known.map(|centred| centred.bounds(directions, scale)),
@@ -116,9 +215,6 @@ impl<N: DualNet> Part<N> {
 
     /// The factor by which the bounds exceed what has been found.
     fn excess(&self, found: &Option<MeanBounds>) -> f64 {
-        if self.scale >= FINEST {
-            return 0.0;
-        }
         let (Some((bounds, margin)), Some(found)) = (&self.known, found) else {
             return f64::INFINITY;
         };
@@ -138,6 +234,9 @@ struct Centred<N> {
     frame: DualFrame,
     /// e.
     deviation: f64,
+    /// A lower bound of the eigenvalues of q̂ over the part; if it is not positive nothing is known.
+    least: f64,
+    rates: [Rate<N>; 2],
 }
 
 /// A derivative of the part in dual space.
@@ -174,16 +273,24 @@ impl<N: DualNet> Rate<N> {
 }
 
 impl<N: DualNet> Centred<N> {
-    fn new(net: &N, frame: &DualFrame) -> Option<Self> {
+    fn new(net: &N, directions: [N::Direction; 2], frame: &DualFrame) -> Option<Self> {
         let middle = net.middle();
         let own = DualFrame {
             centre: middle.mean()?,
             axes: whitening(middle.precision)?,
         };
         let net = in_frame(net, &own);
-        let off = |control: &Dual| (control.precision - super::Symmetric3::IDENTITY).norm();
+        let off = |control: &Dual| (control.precision - Symmetric3::IDENTITY).norm();
+        let deviation = net.controls().iter().map(off).fold(0.0, f64::max);
+        let least = |control: &Dual| control.precision.eigen().values[2];
         Some(Self {
-            deviation: net.controls().iter().map(off).fold(0.0, f64::max),
+            deviation,
+            least: if deviation < PLAIN_DEVIATION {
+                1.0 - deviation
+            } else {
+                net.controls().iter().map(least).fold(1.0, f64::min)
+            },
+            rates: directions.map(|along| Rate::new(net.derivative(along))),
             net,
             frame: DualFrame {
                 centre: frame.point(own.centre),
@@ -194,14 +301,10 @@ impl<N: DualNet> Centred<N> {
 
     /// What the middle of the part has.
     fn middle(&self, directions: [N::Direction; 2], scale: f64) -> Option<MeanBounds> {
-        let [u, v] = directions.map(|along| self.net.derivative(along));
-        let second = [
-            u.derivative(directions[0]),
-            u.derivative(directions[1]),
-            v.derivative(directions[1]),
-        ];
-        let [uu, uv, vv] = second.map(|net| net.middle() * (scale * scale));
-        let terms = [self.net.middle(), u.middle() * scale, v.middle() * scale, uu, uv, vv];
+        let [u, v] = &self.rates;
+        let second = [(u, directions[0]), (u, directions[1]), (v, directions[1])];
+        let [uu, uv, vv] = second.map(|(rate, along)| rate.net.derivative(along).middle() * (scale * scale));
+        let terms = [self.net.middle(), u.middle * scale, v.middle * scale, uu, uv, vv];
         let jet = DualJet { terms }.mean()?.in_object_space(&self.frame);
         Some(MeanBounds {
             low: jet.mean,
@@ -222,13 +325,13 @@ impl<N: DualNet> Centred<N> {
             .iter()
             .map(|control| control.information.length())
             .fold(0.0, f64::max);
-        let reach = longest / (1.0 - e);
-        let rates = directions.map(|along| Rate::new(self.net.derivative(along)));
+        let reach = longest / self.least;
+        let rates = &self.rates;
         // Of the derivatives: |μ_h|, its distance from the middle's, and |μ_h| in object space.
         let first = [0, 1].map(|k| {
             let rate = &rates[k];
             let others = rate.precision[0] * reach;
-            let solved = e / (1.0 - e) * (rate.longest(DVec3::ZERO, own) + others);
+            let solved = e / self.least * (rate.longest(DVec3::ZERO, own) + others);
             let off = rate.longest(rate.middle.information, own) + others + solved;
             let object = rate.longest(DVec3::ZERO, axes) + stretch * (others + solved);
             (rate.middle.information.length() + off, off, object)
@@ -244,14 +347,14 @@ impl<N: DualNet> Centred<N> {
                 product(a, b) + product(b, a),
                 rate.precision[0] * reach + off(a, b) + off(b, a),
             );
-            let solved = e / (1.0 - e) * (rate.longest(taken, own) + others);
+            let solved = e / self.least * (rate.longest(taken, own) + others);
             rate.longest(taken, axes) + stretch * (others + solved)
         };
         let (low, high) = self.hull(e * reach);
         let bounds = MeanBounds {
             low,
             high,
-            first: first.map(|(_, _, object)| object * scale),
+            first: first.map(|(_, _, object)| object * scale.abs()),
             second: [second(0, 0), second(0, 1), second(1, 1)].map(|bound| bound * scale * scale),
         };
         (bounds, stretch * e * reach)
@@ -278,6 +381,6 @@ impl<N: DualNet> Centred<N> {
 fn norm(matrix: DMat3) -> f64 {
     let columns = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
     let [x, y, z] = columns;
-    let gram = super::Symmetric3::from_array([x.dot(x), x.dot(y), x.dot(z), y.dot(y), y.dot(z), z.dot(z)]);
+    let gram = Symmetric3::from_array([x.dot(x), x.dot(y), x.dot(z), y.dot(y), y.dot(z), z.dot(z)]);
     gram.eigen().values[0].max(0.0).sqrt()
 }

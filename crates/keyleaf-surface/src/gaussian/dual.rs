@@ -12,6 +12,8 @@ use super::solve::Ldl;
 use super::symmetric::Symmetric3;
 use crate::SurfaceFrame;
 use crate::direction::frame_normal;
+use crate::subdivision::exact::Located;
+use crate::subdivision::stencil::Vector;
 use glam::{DMat3, DVec3};
 use std::ops::{Add, Mul, Sub};
 
@@ -35,10 +37,7 @@ impl DualFrame {
     pub fn scaled(gaussians: &[(DVec3, Covariance)]) -> Self {
         let traces = gaussians.iter().map(|(_, covariance)| covariance.precision().trace());
         let largest = traces.fold(0.0, f64::max);
-        Self {
-            centre: mean(gaussians),
-            axes: DMat3::from_diagonal(DVec3::splat(if largest > 0.0 { largest.sqrt().recip() } else { 1.0 })),
-        }
+        Self::round(mean(gaussians), largest)
     }
 
     /// About the mean of the means, in axes and units in which the mean of the precisions is the unit matrix ("whitened"). Gaussians
@@ -51,6 +50,15 @@ impl DualFrame {
         Self {
             centre: mean(gaussians),
             axes: whitening(precision).unwrap_or(DMat3::IDENTITY),
+        }
+    }
+
+    /// About a centre, in units in which this trace of a precision is 1.
+    pub(crate) fn round(centre: DVec3, trace: f64) -> Self {
+        let unit = if trace > 0.0 { trace.sqrt().recip() } else { 1.0 };
+        Self {
+            centre,
+            axes: DMat3::from_diagonal(DVec3::splat(unit)),
         }
     }
 
@@ -86,7 +94,11 @@ pub struct Dual {
 impl Dual {
     /// Of a Gaussian, in the coordinates of a frame: the precision is Tᵀ Σ⁻¹ T, and the mean T⁻¹ (μ − c).
     pub fn of(mean: DVec3, covariance: &Covariance, frame: &DualFrame) -> Self {
-        let precision = covariance.precision();
+        Self::of_precision(mean, covariance.precision(), frame)
+    }
+
+    /// The same from Σ⁻¹.
+    pub(crate) fn of_precision(mean: DVec3, precision: Symmetric3, frame: &DualFrame) -> Self {
         Self {
             precision: precision.congruent(frame.axes),
             information: frame.axes.transpose() * (precision * (mean - frame.centre)),
@@ -156,6 +168,29 @@ impl Mul<f64> for Dual {
             precision: self.precision * factor,
             information: self.information * factor,
         }
+    }
+}
+
+impl Vector for Dual {
+    const ZERO: Self = Self {
+        precision: Symmetric3::diagonal([0.0; 3]),
+        information: DVec3::ZERO,
+    };
+
+    fn plus(self, other: Self, weight: f64) -> Self {
+        self + other * weight
+    }
+}
+
+impl Located for Dual {
+    /// Zero where there is no mean; limits of subdivision always have one, since their weights are not negative.
+    fn position(&self) -> DVec3 {
+        self.mean().unwrap_or(DVec3::ZERO)
+    }
+
+    fn motion(&self, rate: Self) -> DVec3 {
+        let moved = |(factors, mean): (Ldl, DVec3)| factors.solve(rate.information - rate.precision * mean);
+        self.solve().map_or(DVec3::ZERO, moved)
     }
 }
 

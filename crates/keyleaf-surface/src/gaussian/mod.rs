@@ -1,4 +1,4 @@
-//! Gaussian-product subdivision (Preiner, Boubekeur & Wimmer 2019; Komar 2020): the numerics, in f64.
+//! Gaussian-product subdivision (Preiner, Boubekeur & Wimmer 2019; Komar 2020).
 //!
 //! # Theory
 //!
@@ -38,6 +38,8 @@
 //! | `symmetric`, `solve` | 3 × 3 matrices: eigenvalues, linear equations |
 //! | `dual` | to dual space and back, with derivatives |
 //! | `patch`, `bound` | Bézier patches in dual space, and their bounds |
+//! | `dual_patches`, `terminal`, `face_bounds` | the patches of a surface, how far they are off, bounds of faces |
+//! | `surface`, `tables` | [`GaussianProduct`], and what the GPU reads |
 //!
 //! ```
 //! use glam::DVec3;
@@ -56,9 +58,14 @@ mod bound;
 mod covariance;
 mod covariance_mesh;
 mod dual;
+mod dual_patches;
+mod face_bounds;
 mod patch;
 mod solve;
+mod surface;
 mod symmetric;
+mod tables;
+mod terminal;
 
 pub use bound::MeanBounds;
 pub use covariance::{CONDITION_LIMIT, Covariance, CovarianceDefect, symmetric as symmetric_of_rows};
@@ -66,4 +73,5 @@ pub use covariance_mesh::{Conditioning, CovarianceError, CovarianceMesh};
 pub use dual::{Dual, DualFrame, DualJet, MeanJet};
 pub use patch::{DualSquare, DualTriangle};
 pub use solve::{Ldl, solve_by_adjugate};
+pub use surface::{GaussianProduct, GaussianSettings, Solver};
 pub use symmetric::{Eigen, Symmetric3};

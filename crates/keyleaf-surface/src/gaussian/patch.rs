@@ -102,24 +102,42 @@ impl DualNet for DualSquare {
     }
 
     fn derivative(&self, axis: usize) -> Self {
-        let p = self.degree[axis] as f64;
-        let difference = |line: Vec<Dual>| -> Vec<Dual> {
-            match line.len() {
-                1 => vec![Dual::default()],
-                _ => line.windows(2).map(|pair| (pair[1] - pair[0]) * p).collect(),
-            }
-        };
-        Self::of_lines(axis, &self.lines(axis).map(difference).collect::<Vec<_>>())
+        let [p, q] = self.degree;
+        if self.degree[axis] == 0 {
+            return self.map(|_| Dual::default());
+        }
+        let (width, step) = (p + 1, if axis == 0 { 1 } else { p + 1 });
+        let (columns, rows) = if axis == 0 { (p, q + 1) } else { (p + 1, q) };
+        let places = (0..rows).flat_map(|j| (0..columns).map(move |i| j * width + i));
+        let scale = self.degree[axis] as f64;
+        let slope = |place: usize| (self.controls[place + step] - self.controls[place]) * scale;
+        Self {
+            degree: [columns - 1, rows - 1],
+            controls: places.map(slope).collect(),
+        }
     }
 
     fn middle(&self) -> Dual {
-        self.jet([0.5; 2]).terms[0]
+        let [p, q] = self.degree;
+        let terms = self.controls.iter().zip(0..);
+        terms.fold(Dual::default(), |sum, (control, place)| {
+            sum + *control * (halfway(p, place % (p + 1)) * halfway(q, place / (p + 1)))
+        })
     }
 
     fn quarters(&self) -> [Self; 4] {
         let [[a, b], [c, d]] = self.halves(1).map(|half| half.halves(0));
         [a, b, c, d]
     }
+}
+
+/// The Bernstein polynomial k of a degree at 1/2.
+fn halfway(degree: usize, k: usize) -> f64 {
+    binomial(degree, k) * 0.5f64.powi(degree as i32)
+}
+
+fn binomial(n: usize, k: usize) -> f64 {
+    (0..k).fold(1.0, |product, i| product * (n - i) as f64 / (i + 1) as f64)
 }
 
 /// Value, first and second derivative of a Bézier curve, by de Casteljau's algorithm.
@@ -262,7 +280,11 @@ impl DualNet for DualTriangle {
     }
 
     fn middle(&self) -> Dual {
-        self.jet([1.0 / 3.0; 2]).terms[0]
+        let n = self.degree;
+        let places = (0..=n).flat_map(|j| (0..=n - j).map(move |i| (i, j)));
+        let weight = |(i, j): (usize, usize)| binomial(n, j) * binomial(n - j, i) / 3f64.powi(n as i32);
+        let terms = self.controls.iter().zip(places);
+        terms.fold(Dual::default(), |sum, (control, place)| sum + *control * weight(place))
     }
 
     fn quarters(&self) -> [Self; 4] {

@@ -3,8 +3,11 @@
 use glam::{DMat3, DVec3};
 use std::ops::{Add, Mul, Sub};
 
-/// Sweeps of Jacobi's method; convergence is quadratic, and six are enough for any matrix.
+/// The most sweeps of Jacobi's method; convergence is quadratic, and six are enough for any matrix.
 const SWEEPS: usize = 12;
+
+/// What is left beside the diagonal, over the largest entry, when Jacobi's method has done.
+const CONVERGED: f64 = 1e-20;
 
 /// A symmetric 3 × 3 matrix by its upper triangle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -102,7 +105,11 @@ impl Symmetric3 {
     pub fn eigen(self) -> Eigen {
         let mut a = self.rows().map(|row| row.to_array());
         let mut vectors = [DVec3::X, DVec3::Y, DVec3::Z];
+        let rest = CONVERGED * self.largest();
         for _ in 0..SWEEPS {
+            if a[0][1].abs().max(a[0][2].abs()).max(a[1][2].abs()) <= rest {
+                break;
+            }
             for [p, q] in [[0, 1], [0, 2], [1, 2]] {
                 rotate(&mut a, &mut vectors, p, q);
             }

@@ -5,7 +5,9 @@
 use super::SubdivisionScheme;
 use super::bezier::Slopes;
 use super::tree::{CellPlace, Tree};
-use keyleaf_key::Topology;
+use crate::{SurfaceBound, diamond};
+use glam::DVec3;
+use keyleaf_key::{MAX_LEVEL, Place, Topology};
 
 /// Bounds of a root, for both roots of a mesh edge alike.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -24,6 +26,21 @@ impl RootBound {
             size: self.size.max(other.size),
             ball: self.ball.max(other.ball),
             deviation: self.deviation.max(other.deviation),
+        }
+    }
+
+    /// Of a leaf, where what is drawn is off by at most `terminal_error`.
+    pub fn of_leaf(&self, leaf: &Place, centre: DVec3, terminal_error: f64) -> SurfaceBound {
+        let ball = self.ball * diamond::ball_scale(leaf.level);
+        let scale = diamond::level_scale(leaf.level);
+        // On mesh edges both the centre and the surface may be off by the error of terminal patches.
+        let error = 2.0 * terminal_error;
+        SurfaceBound {
+            centre,
+            radius: ball + error,
+            size: self.size * scale,
+            guard: 2.0 * ball + 2.0 * error * f64::from(MAX_LEVEL + 2 - leaf.level),
+            deviation: self.deviation * scale * scale,
         }
     }
 

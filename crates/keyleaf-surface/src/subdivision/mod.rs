@@ -35,10 +35,10 @@
 pub(crate) mod addresses;
 pub(crate) mod approximation;
 pub(crate) mod bezier;
-mod bicubic;
+pub(crate) mod bicubic;
 pub(crate) mod bound;
 mod box_spline;
-pub(crate) mod bspline;
+mod bspline;
 pub(crate) mod cage;
 mod catmull_clark;
 pub(crate) mod cell;
@@ -71,7 +71,7 @@ use cage::Cage;
 use cell::DomainPoint;
 use exact::ExactPoint;
 use glam::DVec3;
-use keyleaf_key::{HalfEdge, MAX_LEVEL, Place, RootPoint, Topology};
+use keyleaf_key::{HalfEdge, Place, RootPoint, Topology};
 use neighbourhoods::Neighbourhoods;
 use spectrum::Spectra;
 use tree::Grower;
@@ -264,10 +264,15 @@ impl Subdivision {
         let topology = &self.topology;
         let of_face = |face: u32| {
             let corners = topology.corner_count(face) as usize;
-            bound::of_roots(self.neighbourhoods.trees(face), self.scheme, corners, |domain, patch, place| {
-                let points = approximation::patch_points(&self.neighbourhoods, &self.points, face, domain, patch);
-                bound::in_domain(bezier::slopes(points), place)
-            })
+            bound::of_roots(
+                self.neighbourhoods.trees(face),
+                self.scheme,
+                corners,
+                |domain, patch, place| {
+                    let points = approximation::patch_points(&self.neighbourhoods, &self.points, face, domain, patch);
+                    bound::in_domain(bezier::slopes(points), place)
+                },
+            )
         };
         bound::of_both_sides(topology, (0..topology.face_count()).flat_map(of_face).collect())
     }
@@ -327,18 +332,8 @@ impl Surface for Subdivision {
     }
 
     fn bound(&self, leaf: &Place) -> SurfaceBound {
-        let bound = self.bounds[self.topology.half_edge_index(leaf.face, leaf.root) as usize];
-        let ball = bound.ball * diamond::ball_scale(leaf.level);
-        let scale = diamond::level_scale(leaf.level);
-        // On mesh edges both the centre and the surface may be off by the error of terminal patches.
-        let error = 2.0 * self.terminal_error;
-        SurfaceBound {
-            centre: self.point(diamond::centre(leaf)),
-            radius: ball + error,
-            size: bound.size * scale,
-            guard: 2.0 * ball + 2.0 * error * f64::from(MAX_LEVEL + 2 - leaf.level),
-            deviation: bound.deviation * scale * scale,
-        }
+        let root = &self.bounds[self.topology.half_edge_index(leaf.face, leaf.root) as usize];
+        root.of_leaf(leaf, self.point(diamond::centre(leaf)), self.terminal_error)
     }
 
     fn bounding_box(&self) -> (DVec3, DVec3) {

@@ -49,7 +49,9 @@ struct SubdivisionParams {
 
 /// The tables for positions relative to `origin`.
 pub fn tables(surface: &Subdivision, origin: DVec3) -> SurfaceTables {
-    let words = TopologyWords::new(surface.topology(), &surface.neighbourhoods, &surface.bounds, |entry| entry);
+    let words = TopologyWords::new(surface.topology(), &surface.neighbourhoods, &surface.bounds, |entry| {
+        entry
+    });
     let params = words.params(
         surface.points.len(),
         POSITION_ERROR * surface.largest_coordinate(origin) + surface.terminal_error,
@@ -163,7 +165,9 @@ fn half_edge_words(
         ball,
         deviation,
         roots[ring.kind as usize].get(domain).copied().unwrap_or(0),
-        ring.first_entries.get(domain).map_or(0, |&entry| entry_of(entry) as u32),
+        ring.first_entries
+            .get(domain)
+            .map_or(0, |&entry| entry_of(entry) as u32),
         at.face,
     ]
 }

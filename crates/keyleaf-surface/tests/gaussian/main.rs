@@ -6,4 +6,7 @@ mod covariances;
 mod models;
 mod oracles;
 mod patches;
+mod products;
 mod refine;
+mod shaders;
+mod surface;

@@ -8,7 +8,7 @@ use keyleaf_surface::gaussian::{Conditioning, CovarianceMesh, Dual, DualFrame, D
 use serde_json::Value;
 use std::path::Path;
 
-const NAMES: [&str; 7] = [
+pub const NAMES: [&str; 7] = [
     "cone_concave_warren",
     "cone_cylinder_warren",
     "cone_plateau_loop",
@@ -34,11 +34,11 @@ fn floats(value: &Value) -> Vec<f64> {
     array.iter().map(|x| x.as_f64().unwrap_or(f64::NAN)).collect()
 }
 
-fn list(value: &Value) -> Vec<Vec<f64>> {
+pub fn list(value: &Value) -> Vec<Vec<f64>> {
     value.as_array().expect("an array").iter().map(floats).collect()
 }
 
-fn read(table: &Value) -> (Scheme, CovarianceMesh) {
+pub fn read(table: &Value) -> (Scheme, CovarianceMesh) {
     let scheme = match (table["scheme"].as_str(), table["loop_weights"].as_str()) {
         (Some("cc"), _) => Scheme::CatmullClark,
         (_, Some("warren")) => Scheme::Warren,

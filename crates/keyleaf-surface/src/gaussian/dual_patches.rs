@@ -1,0 +1,147 @@
+//! The patches of a surface in dual space, each in a frame of its own.
+
+use super::dual::{Dual, DualFrame, MeanJet, whitening};
+use super::patch::{DualSquare, DualTriangle};
+use super::symmetric::Symmetric3;
+use crate::subdivision::bicubic;
+use crate::subdivision::neighbourhoods::Neighbourhoods;
+use glam::{DMat3, DVec3};
+
+/// The control vertices in dual space, about their common centre.
+#[derive(Clone, Debug)]
+pub struct DualVertices {
+    pub centre: DVec3,
+    pub values: Vec<Dual>,
+}
+
+impl DualVertices {
+    pub fn new(means: &[DVec3], precisions: &[Symmetric3]) -> Self {
+        let frame = DualFrame {
+            centre: means.iter().sum::<DVec3>() / means.len().max(1) as f64,
+            axes: DMat3::IDENTITY,
+        };
+        let vertices = means.iter().zip(precisions);
+        Self {
+            centre: frame.centre,
+            values: vertices
+                .map(|(&mean, &precision)| Dual::of_precision(mean, precision, &frame))
+                .collect(),
+        }
+    }
+}
+
+/// Where the numbers of a patch are: coordinates, and the factor that all its precisions have in common, which changes nothing.
+#[derive(Clone, Copy, Debug)]
+pub struct PatchFrame {
+    pub frame: DualFrame,
+    factor: f64,
+}
+
+/// Control points of all patches, in the order of [`Neighbourhoods`].
+#[derive(Clone, Debug)]
+pub struct DualPatches {
+    /// Control points a patch.
+    pub size: usize,
+    /// One a patch.
+    pub frames: Vec<PatchFrame>,
+    /// In the frames.
+    pub controls: Vec<Dual>,
+}
+
+impl DualPatches {
+    pub fn new(all: &Neighbourhoods, vertices: &DualVertices) -> Self {
+        let mut controls = all.apply(&vertices.values);
+        let size = all.control_points;
+        let frames = controls
+            .chunks_exact_mut(size)
+            .map(|patch| {
+                let first = patch[0];
+                patch[1..].iter_mut().for_each(|control| *control = *control + first);
+                let own = PatchFrame::of(patch);
+                patch.iter_mut().for_each(|control| *control = own.inside(control));
+                own.moved(vertices.centre)
+            })
+            .collect();
+        Self { size, frames, controls }
+    }
+
+    /// The control points of a patch.
+    pub fn controls(&self, patch: usize) -> &[Dual] {
+        &self.controls[patch * self.size..][..self.size]
+    }
+
+    /// The control points at the corners of a patch, counter-clockwise.
+    pub fn corners(&self) -> &'static [usize] {
+        if self.size == bicubic::CONTROL_POINTS {
+            &[0, 3, 15, 12]
+        } else {
+            &[0, 4, 14]
+        }
+    }
+
+    /// A patch of a Catmull-Clark surface.
+    pub fn square(&self, patch: usize) -> Option<DualSquare> {
+        DualSquare::new([3, 3], self.controls(patch).to_vec())
+    }
+
+    /// A patch of a Loop surface.
+    pub fn triangle(&self, patch: usize) -> Option<DualTriangle> {
+        DualTriangle::new(4, self.controls(patch).to_vec())
+    }
+
+    /// From the coordinates of a patch to object space; where its precision is not positive definite, the middle of the patch.
+    pub fn in_object_space(&self, patch: usize, jet: Option<MeanJet>) -> MeanJet {
+        let frame = &self.frames[patch].frame;
+        let middle = MeanJet {
+            mean: frame.centre,
+            first: [DVec3::ZERO; 2],
+            second: [DVec3::ZERO; 3],
+        };
+        jet.map_or(middle, |jet| jet.in_object_space(frame))
+    }
+
+    /// The mean of a control point, about the middle of the patch.
+    pub fn offset(&self, patch: usize, control: usize) -> Option<DVec3> {
+        Some(self.frames[patch].frame.axes * self.controls(patch)[control].mean()?)
+    }
+}
+
+impl PatchFrame {
+    /// The frame in which the mean of these control points has mean 0 and precision 1. The unit is that of the longest axis: so
+    /// coordinates are numbers for f32, whatever the covariances are.
+    fn of(patch: &[Dual]) -> Self {
+        let share = 1.0 / patch.len() as f64;
+        let mean = patch
+            .iter()
+            .fold(Dual::default(), |sum, &control| sum + control * share);
+        if let (Some(centre), Some(axes)) = (mean.mean(), whitening(mean.precision)) {
+            let columns = [axes.x_axis, axes.y_axis, axes.z_axis];
+            let unit = columns.iter().map(|column| column.length()).fold(0.0, f64::max);
+            let axes = axes * (1.0 / unit);
+            return Self {
+                frame: DualFrame { centre, axes },
+                factor: unit * unit,
+            };
+        }
+        let traces = patch.iter().map(|control| control.precision.trace().abs());
+        let largest = traces.fold(0.0, f64::max);
+        Self {
+            frame: DualFrame::OBJECT,
+            factor: if largest > 0.0 { 1.0 / largest } else { 1.0 },
+        }
+    }
+
+    fn inside(&self, value: &Dual) -> Dual {
+        value.in_frame(&self.frame) * self.factor
+    }
+
+    fn moved(mut self, by: DVec3) -> Self {
+        self.frame.centre += by;
+        self
+    }
+
+    /// A value of the control vertices' space in that of the patch.
+    pub fn of_vertices(&self, value: &Dual, vertices: &DualVertices) -> Dual {
+        self.moved(-vertices.centre).inside(value)
+    }
+}

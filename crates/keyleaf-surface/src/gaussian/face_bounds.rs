@@ -1,0 +1,85 @@
+//! Bounds of the patches of a face, in the parameters of their domains.
+
+use super::bound::{MeanBounds, Whole, of_patches};
+use super::dual_patches::DualPatches;
+use super::patch::DualNet;
+use crate::SubdivisionScheme;
+use crate::subdivision::bezier::Slopes;
+use crate::subdivision::bound::{self, RootBound};
+use crate::subdivision::neighbourhoods::Neighbourhoods;
+use glam::DVec3;
+
+/// How many cuts into four there may be a face.
+const CUTS: usize = 24;
+
+/// How many times as large as what has been found anything may be on a patch without bounds. Only precisions that are positive definite
+/// by a hair, or not at all, leave one.
+const WITHOUT_BOUNDS: f64 = 8.0;
+
+/// Along the second and the third barycentric coordinate.
+const BARYCENTRIC: [[f64; 3]; 2] = [[-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]];
+
+/// Bounds of the roots of a face, taken alone, and of all of it.
+pub struct FaceBounds {
+    pub roots: Vec<RootBound>,
+    pub low: DVec3,
+    pub high: DVec3,
+}
+
+impl FaceBounds {
+    pub fn new(
+        all: &Neighbourhoods,
+        patches: &DualPatches,
+        scheme: SubdivisionScheme,
+        face: u32,
+        corners: u32,
+    ) -> Self {
+        let bounds = match scheme {
+            SubdivisionScheme::CatmullClark => of_face(all, patches, face, [0, 1], |patch| patches.square(patch)),
+            SubdivisionScheme::Loop(_) => of_face(all, patches, face, BARYCENTRIC, |patch| patches.triangle(patch)),
+        };
+        let first = all.faces[face as usize].first_entries[0];
+        let slopes = |domain: usize, patch: u32| {
+            let before = all.faces[face as usize].first_entries[domain] - first;
+            let MeanBounds { first, second, .. } = bounds[before / patches.size + patch as usize];
+            Slopes { first, second }
+        };
+        Self {
+            roots: bound::of_roots(all.trees(face), scheme, corners as usize, |domain, patch, _| {
+                slopes(domain, patch)
+            }),
+            low: bounds.iter().fold(DVec3::INFINITY, |low, bounds| low.min(bounds.low)),
+            high: bounds
+                .iter()
+                .fold(DVec3::NEG_INFINITY, |high, bounds| high.max(bounds.high)),
+        }
+    }
+}
+
+/// Bounds of all patches of a face, domain after domain.
+fn of_face<N: DualNet>(
+    all: &Neighbourhoods,
+    patches: &DualPatches,
+    face: u32,
+    directions: [N::Direction; 2],
+    net: impl Fn(usize) -> Option<N>,
+) -> Vec<MeanBounds> {
+    let domains = all.trees(face).iter().zip(&all.faces[face as usize].first_entries);
+    let wholes: Vec<Whole<N>> = domains
+        .flat_map(|(tree, first)| {
+            let numbers = first / patches.size..;
+            numbers.zip(&tree.places)
+        })
+        .filter_map(|(patch, place)| {
+            Some(Whole {
+                net: net(patch)?,
+                frame: patches.frames[patch].frame,
+                scale: 1.0 / place.right[0].abs(),
+            })
+        })
+        .collect();
+    let most = wholes.len() + 3 * CUTS;
+    let (bounds, found) = of_patches(wholes, directions, most);
+    let unknown = found.map_or(MeanBounds::NONE, |found| found.widened(WITHOUT_BOUNDS));
+    bounds.into_iter().map(|bounds| bounds.unwrap_or(unknown)).collect()
+}

@@ -1,0 +1,2 @@
+// Gaussian-product subdivision (Komar 2020) by the rules of Catmull-Clark. Twin: keyleaf-surface `gaussian`.
+// requires: shared/solve_ldlt.wgsl, shared/gaussian_square.wgsl

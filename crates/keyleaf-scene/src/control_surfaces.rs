@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::DVec3;
-use keyleaf_surface::gaussian::{Conditioning, CovarianceMesh, Symmetric3};
+use keyleaf_surface::gaussian::{Conditioning, CovarianceMesh, GaussianProduct, GaussianSettings, Solver, Symmetric3};
 use keyleaf_surface::{
     ControlMesh, Corner, CornerAttributes, CornerNormals, Crease, LimitSamples, LoopWeights, Subdivision,
     SubdivisionScheme, SubdivisionSettings, Surface, TrianglePatches,
@@ -17,8 +17,8 @@ use crate::model::{ControlMeshOptions, CovarianceSource, read_control_mesh};
 use crate::motion::CageMotion;
 use crate::note::Note;
 use crate::scene::{
-    Covariances, GaussianShape, LoopShape, Motion, NormalCovariances, QasShape, QasVariant, Shape, Sharpness,
-    SubdivisionShape, SurfaceEntry, Track,
+    Covariances, GaussianScheme, GaussianShape, LoopShape, Motion, NormalCovariances, QasShape, QasVariant, Shape,
+    Sharpness, SubdivisionShape, SurfaceEntry, Track,
 };
 use crate::surfaces::{Failure, Made};
 
@@ -282,8 +282,29 @@ fn pn_triangles(control: &ControlMesh) -> Result<Arc<dyn Surface>, Failure> {
     Ok(Arc::new(patches.map_err(Failure::of("surface"))?))
 }
 
-fn gaussian_product(_: &ControlMesh, _: &[[f64; 6]], _: &GaussianShape) -> Result<Arc<dyn Surface>, Failure> {
-    Err(not_yet("Gaussian-product surfaces"))
+fn gaussian_product(
+    control: &ControlMesh,
+    covariances: &[[f64; 6]],
+    shape: &GaussianShape,
+) -> Result<Arc<dyn Surface>, Failure> {
+    let matrices: Vec<Symmetric3> = covariances.iter().map(|&c| Symmetric3::from_array(c)).collect();
+    // They have been checked; between keys of a motion they may be a little flatter.
+    let (mesh, _) = CovarianceMesh::new(control.clone(), &matrices, Conditioning::Floor)
+        .map_err(Failure::of("surface.covariances"))?;
+    let settings = GaussianSettings {
+        scheme: match shape.scheme {
+            GaussianScheme::CatmullClark => SubdivisionScheme::CatmullClark,
+            GaussianScheme::Loop => SubdivisionScheme::Loop(LoopWeights::Loop),
+            GaussianScheme::LoopWarren => SubdivisionScheme::Loop(LoopWeights::Warren),
+        },
+        isolation: shape.isolation,
+        solver: match shape.solver {
+            crate::scene::Solver::Ldlt => Solver::Ldlt,
+            crate::scene::Solver::Adjugate => Solver::Adjugate,
+        },
+    };
+    let surface = GaussianProduct::new(&mesh, settings).map_err(Failure::of("surface"))?;
+    Ok(Arc::new(surface))
 }
 
 /// A kind of surface that is parsed and not made.

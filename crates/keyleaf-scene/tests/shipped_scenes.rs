@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 use keyleaf_key::{ONE, RootPoint};
-use keyleaf_scene::scene::{Metric, Motion, Shape};
-use keyleaf_scene::{OpenOptions, OpenedScene, OpenedSurface, Scene, View, load_scene, open};
+use keyleaf_scene::scene::Metric;
+use keyleaf_scene::{OpenOptions, OpenedScene, OpenedSurface, View, open};
 
 /// Seconds a frame.
 const STEP: f64 = 1.0 / 30.0;
@@ -23,19 +23,8 @@ fn scenes() -> Vec<(PathBuf, OpenedScene)> {
     files.into_iter().map(|file| (file.clone(), opened(&file))).collect()
 }
 
-/// A scene; one with surfaces that are not made yet, with its control meshes in their place.
 fn opened(file: &Path) -> OpenedScene {
-    let error = match open(file, &OpenOptions::default()) {
-        Ok(scene) => return scene,
-        Err(error) => error.to_string(),
-    };
-    assert!(error.contains("are not drawn yet"), "{error}");
-    println!("{error}");
-    let mut scene = Scene::read(file).unwrap_or_else(|error| panic!("{error}"));
-    for surface in &mut scene.surfaces {
-        (surface.surface, surface.motion) = (Shape::Flat, Motion::Still);
-    }
-    load_scene(scene, file).unwrap_or_else(|error| panic!("{error}"))
+    open(file, &OpenOptions::default()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// Whether a surface is a height map or a terrain, not a mesh.
@@ -174,6 +163,7 @@ fn the_scenes_show_every_kind_of_surface_and_metric() {
         "terrain",
         "bezier",
         "nurbs",
+        "gaussian_catmull_clark",
     ] {
         assert!(
             shaders.contains(format!("surfaces/{kind}.wgsl").as_str()),

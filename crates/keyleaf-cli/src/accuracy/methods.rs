@@ -10,25 +10,56 @@ use crate::progress;
 use anyhow::Context;
 use keyleaf::{BackFaces, Metric, Projection, View};
 use keyleaf_baseline::{Method, Quality, deviation};
-use keyleaf_stage::Loaded;
+use keyleaf_stage::{Loaded, Pipelines};
 use serde_json::json;
 
-/// Thresholds of the quadtree in pixels between which the one of equal PSNR is looked for.
-const RANGE: [f32; 2] = [1.0 / 64.0, 64.0];
-/// Halvings of that range, by its logarithm: within 1.3 %.
-const HALVINGS: u32 = 9;
-
-/// How the quadtree is refined: by the distance to the surface, or by length.
-const METRICS: [(&str, fn(f32) -> Metric); 2] = [
-    ("deviation", |pixels| Metric::Deviation { pixels }),
-    ("edge", |pixels| Metric::Edge { pixels }),
+/// How the quadtree is refined, by the distance to the surface or by length, and from which threshold to which, in pixels.
+const METRICS: [(&str, fn(f32) -> Metric, [f32; 2]); 2] = [
+    ("deviation", |pixels| Metric::Deviation { pixels }, [1.0 / 32.0, 8.0]),
+    ("edge", |pixels| Metric::Edge { pixels }, [1.0, 64.0]),
 ];
 
-/// The quadtree at one quality: found by its threshold.
-struct Match {
-    pixels: f32,
-    triangles: u64,
-    decibels: f64,
+/// Thresholds an octave.
+const STEPS: u32 = 2;
+
+/// PSNR and triangles of the quadtree, from coarse to fine.
+struct Curve(Vec<[f64; 2]>);
+
+impl Curve {
+    fn of(
+        setup: &Setup<'_>,
+        scene: &Loaded,
+        view: &View,
+        (_, metric, [fine, coarse]): (&str, fn(f32) -> Metric, [f32; 2]),
+        reference: &[u8],
+    ) -> anyhow::Result<Self> {
+        let start = with_settings(scene, |settings| {
+            settings.metric = metric(coarse);
+            settings.base_grid = 1;
+            settings.target_leaves = 0;
+            settings.capacity = settings.capacity.max(1 << 20);
+        });
+        let mut studio = Studio::new(setup, &start, view)?;
+        let steps = (coarse / fine).log2() as u32 * STEPS;
+        let mut points = Vec::new();
+        for step in 0..=steps {
+            let pixels = coarse * (-(step as f32) / STEPS as f32).exp2();
+            studio.set(|settings| settings.metric = metric(pixels))?;
+            let shot = studio.look()?;
+            points.push([psnr(&shot.pixels, reference), shot.triangles as f64]);
+        }
+        Ok(Self(points))
+    }
+
+    /// Triangles for a PSNR, between two points of the curve; none beyond its ends.
+    fn triangles(&self, decibels: f64) -> Option<f64> {
+        let between = |pair: &[[f64; 2]]| -> Option<f64> {
+            let ([a, few], [b, many]) = (pair[0], pair[1]);
+            let part = (decibels - a) / (b - a);
+            (0.0..=1.0).contains(&part).then(|| few * (many / few).powf(part))
+        };
+        self.0.windows(2).find_map(between)
+    }
 }
 
 /// The table of one scene.
@@ -43,18 +74,13 @@ pub fn table(setup: &Setup<'_>, loaded: &Loaded, view: &View) -> anyhow::Result<
     let back_faces = object.settings.back_faces;
     let fine = reference(setup, loaded, view, back_faces)?;
     let quiet = Setup { quiet: true, ..*setup };
-    let mut quadtrees = Vec::new();
-    for (name, metric) in METRICS {
-        let start = with_settings(loaded, |settings| {
-            settings.metric = metric(RANGE[1]);
-            settings.base_grid = 1;
-            settings.capacity = settings.capacity.max(1 << 20);
-        });
-        quadtrees.push((name, metric, Studio::new(&quiet, &start, view)?));
+    let bar = progress::bar((Quality::ALL.len() * Method::ALL.len()) as u64, "methods", setup.quiet);
+    let mut curves = Vec::new();
+    for metric in METRICS {
+        curves.push((metric.0, Curve::of(&quiet, loaded, view, metric, &fine.pixels)?));
     }
+    let mut pipelines = Pipelines::default();
 
-    let steps = (Quality::ALL.len() * Method::ALL.len()) as u64;
-    let bar = progress::bar(steps, "methods", setup.quiet);
     let mut shown = Shown {
         title: format!("{}: tessellations", loaded.file.display()),
         text: Vec::new(),
@@ -66,7 +92,10 @@ pub fn table(setup: &Setup<'_>, loaded: &Loaded, view: &View) -> anyhow::Result<
             let tessellation = method.tessellate(&sampler, &seen, quality)?;
             let measured = deviation(&sampler, &seen, &tessellation)?;
             let drawn = with_object(loaded, object_of(object, &sampler, &tessellation)?);
-            let decibels = psnr(&Studio::new(&quiet, &drawn, view)?.look()?.pixels, &fine.pixels);
+            let picture = Studio::with_pipelines(&quiet, &drawn, view, &mut pipelines)?
+                .look()?
+                .pixels;
+            let decibels = psnr(&picture, &fine.pixels);
             let triangles = tessellation.triangles.len() as u64;
             let mut row = vec![
                 quality.to_string(),
@@ -76,14 +105,13 @@ pub fn table(setup: &Setup<'_>, loaded: &Loaded, view: &View) -> anyhow::Result<
                 psnr::cell(decibels),
             ];
             let mut equal = serde_json::Map::new();
-            for (name, metric, studio) in &mut quadtrees {
-                let found = of_equal_psnr(studio, *metric, decibels, &fine.pixels)?;
-                let ratio = triangles as f64 / found.triangles.max(1) as f64;
-                row.extend([thousands(found.triangles), format!("{ratio:.2}")]);
-                equal.insert(
-                    (*name).to_owned(),
-                    json!({ "pixels": found.pixels, "triangles": found.triangles, "psnr_db": psnr::value(found.decibels), "ratio": ratio }),
-                );
+            for (name, curve) in &curves {
+                let found = curve.triangles(decibels);
+                let ratio = found.map(|found| triangles as f64 / found);
+                let or_dash = |text: Option<String>| text.unwrap_or_else(|| "-".to_owned());
+                row.push(or_dash(found.map(|found| thousands(found.round() as u64))));
+                row.push(or_dash(ratio.map(|ratio| format!("{ratio:.2}"))));
+                equal.insert((*name).to_owned(), json!({ "triangles": found, "ratio": ratio }));
             }
             rows.push(row);
             shown.rows.push(json!({
@@ -101,7 +129,9 @@ pub fn table(setup: &Setup<'_>, loaded: &Loaded, view: &View) -> anyhow::Result<
         "one side drawn"
     };
     shown.add(
-        &format!("triangles of each method, and of the quadtree at the same PSNR with how many times fewer; {side}"),
+        &format!(
+            "triangles of each method, and of the quadtree at the same PSNR, with how many times fewer that is; {side}"
+        ),
         &[
             "quality",
             "method",
@@ -132,36 +162,15 @@ fn seen_from(loaded: &Loaded, view: &View, setup: &Setup<'_>) -> anyhow::Result<
     })
 }
 
-/// The coarsest quadtree whose picture is at least as close to the reference.
-fn of_equal_psnr(
-    studio: &mut Studio<'_>,
-    metric: fn(f32) -> Metric,
-    decibels: f64,
-    reference: &[u8],
-) -> anyhow::Result<Match> {
-    let mut at = |pixels: f32| -> anyhow::Result<Match> {
-        studio.set(|settings| settings.metric = metric(pixels))?;
-        let shot = studio.look()?;
-        Ok(Match {
-            pixels,
-            triangles: shot.triangles,
-            decibels: psnr(&shot.pixels, reference),
-        })
-    };
-    let [mut fine, mut coarse] = RANGE;
-    let mut best = None;
-    for _ in 0..HALVINGS {
-        let middle = (fine * coarse).sqrt();
-        let found = at(middle)?;
-        if found.decibels >= decibels {
-            fine = middle;
-            best = Some(found);
-        } else {
-            coarse = middle;
-        }
-    }
-    match best {
-        Some(best) => Ok(best),
-        None => at(fine),
+#[cfg(test)]
+mod tests {
+    use super::Curve;
+
+    #[test]
+    fn triangles_between_two_points_of_the_curve_go_by_their_logarithm() {
+        let curve = Curve(vec![[30.0, 100.0], [40.0, 10_000.0], [50.0, 20_000.0]]);
+        assert_eq!(curve.triangles(35.0).map(f64::round), Some(1000.0));
+        assert_eq!(curve.triangles(50.0), Some(20_000.0));
+        assert_eq!((curve.triangles(29.0), curve.triangles(51.0)), (None, None));
     }
 }

@@ -17,11 +17,12 @@
 //!
 //! # Costs
 //!
-//! About 30 µs a part. Where covariances are alike a few parts do; where disks with conditions of 1e4 are turned against each other,
+//! About 10 µs a part. Where covariances are alike a few parts do; where disks with conditions of 1e4 are turned against each other,
 //! some hundreds.
 
-use super::dual::{Dual, DualFrame, DualJet, whitening};
+use super::dual::{Dual, DualFrame, DualJet};
 use super::patch::{DualNet, DualSquare, DualTriangle, in_frame};
+use super::solve::Ldl;
 use super::symmetric::Symmetric3;
 use glam::{DMat3, DVec3};
 
@@ -31,9 +32,6 @@ const SLACK: f64 = 1.5;
 
 /// Parts are not cut to less than one over this: derivatives would be rounding.
 const FINEST: f64 = 4096.0;
-
-/// How many times as many parts there may be where the precision may not be positive definite.
-const UNKNOWN_SHARE: usize = 16;
 
 /// Below this e, 1 − e is near enough to the least eigenvalue of q̂.
 const PLAIN_DEVIATION: f64 = 0.25;
@@ -103,7 +101,7 @@ fn of_patch<N: DualNet>(net: &N, directions: [N::Direction; 2], frame: &DualFram
         frame: *frame,
         scale: 1.0,
     };
-    of_patches(vec![whole], directions, most).0[0]
+    of_patches(vec![whole], directions, [most; 2]).0[0]
 }
 
 /// A patch among those of a surface.
@@ -116,11 +114,11 @@ pub struct Whole<N> {
 }
 
 /// Bounds of patches that count together: none of them need be closer than the largest that has been found on any. At most `most`
-/// parts; more only where the precision may not be positive definite. And what has been found in the middles of parts.
+/// parts, the second number where the precision may not be positive definite. And what has been found in the middles of parts.
 pub fn of_patches<N: DualNet>(
     patches: Vec<Whole<N>>,
     directions: [N::Direction; 2],
-    most: usize,
+    most: [usize; 2],
 ) -> (Vec<Option<MeanBounds>>, Option<MeanBounds>) {
     let scales: Vec<f64> = patches.iter().map(|patch| patch.scale).collect();
     let frames: Vec<DualFrame> = patches.iter().map(|patch| patch.frame).collect();
@@ -154,8 +152,8 @@ pub fn of_patches<N: DualNet>(
 }
 
 /// The parts to cut next, last one first: half of those that are too loose, and as many as there is room for. Those without bounds count
-/// as the loosest, and there is room for more of them.
-fn loosest<N: DualNet>(parts: &[Part<N>], scales: &[f64], found: &Option<MeanBounds>, most: usize) -> Vec<usize> {
+/// as the loosest, and have a room of their own.
+fn loosest<N: DualNet>(parts: &[Part<N>], scales: &[f64], found: &Option<MeanBounds>, most: [usize; 2]) -> Vec<usize> {
     let loose = |(index, part): (usize, &Part<N>)| {
         let is_finest = part.scale >= FINEST * scales[part.patch];
         let excess = if is_finest { 0.0 } else { part.excess(found) };
@@ -164,9 +162,9 @@ fn loosest<N: DualNet>(parts: &[Part<N>], scales: &[f64], found: &Option<MeanBou
     let mut chosen: Vec<(f64, usize)> = parts.iter().enumerate().filter_map(loose).collect();
     chosen.sort_by(|a, b| b.0.total_cmp(&a.0));
     let unknown = chosen.iter().filter(|(excess, _)| excess.is_infinite()).count();
-    let room = |most: usize| most.saturating_sub(parts.len()) / 3;
-    let count = (chosen.len().div_ceil(2)).max(unknown);
-    chosen.truncate(count.min(room(most).max(unknown.min(room(most * UNKNOWN_SHARE)))));
+    let [room, room_for_unknown] = most.map(|most| most.saturating_sub(parts.len()) / 3);
+    let count = chosen.len().div_ceil(2).max(unknown);
+    chosen.truncate(count.min(room.max(unknown.min(room_for_unknown))));
     let mut indices: Vec<usize> = chosen.into_iter().map(|(_, index)| index).collect();
     indices.sort_by(|a, b| b.cmp(a));
     indices
@@ -202,13 +200,13 @@ struct Part<N> {
 impl<N: DualNet> Part<N> {
     fn new(net: N, patch: usize, directions: [N::Direction; 2], frame: &DualFrame, scale: f64) -> Self {
         let centred = Centred::new(&net, directions, frame);
-        let middle = centred.as_ref().and_then(|centred| centred.middle(directions, scale));
+        let middle = centred.as_ref().and_then(|centred| centred.middle(scale));
         let known = centred.filter(|centred| centred.least > 0.0);
         Self {
             patch,
             scale,
             middle,
-            known: known.map(|centred| centred.bounds(directions, scale)),
+            known: known.map(|centred| centred.bounds(scale)),
             net,
         }
     }
@@ -236,7 +234,10 @@ struct Centred<N> {
     deviation: f64,
     /// A lower bound of the eigenvalues of q̂ over the part; if it is not positive nothing is known.
     least: f64,
+    /// Along both directions.
     rates: [Rate<N>; 2],
+    /// Along the first direction twice, both, and the second twice.
+    second: [Rate<N>; 3],
 }
 
 /// A derivative of the part in dual space.
@@ -277,12 +278,13 @@ impl<N: DualNet> Centred<N> {
         let middle = net.middle();
         let own = DualFrame {
             centre: middle.mean()?,
-            axes: whitening(middle.precision)?,
+            axes: Ldl::new(middle.precision)?.whitening(),
         };
         let net = in_frame(net, &own);
         let off = |control: &Dual| (control.precision - Symmetric3::IDENTITY).norm();
         let deviation = net.controls().iter().map(off).fold(0.0, f64::max);
         let least = |control: &Dual| control.precision.eigen().values[2];
+        let rates = directions.map(|along| Rate::new(net.derivative(along)));
         Some(Self {
             deviation,
             least: if deviation < PLAIN_DEVIATION {
@@ -290,7 +292,8 @@ impl<N: DualNet> Centred<N> {
             } else {
                 net.controls().iter().map(least).fold(1.0, f64::min)
             },
-            rates: directions.map(|along| Rate::new(net.derivative(along))),
+            second: [(0, 0), (0, 1), (1, 1)].map(|(a, b)| Rate::new(rates[a].net.derivative(directions[b]))),
+            rates,
             net,
             frame: DualFrame {
                 centre: frame.point(own.centre),
@@ -300,10 +303,9 @@ impl<N: DualNet> Centred<N> {
     }
 
     /// What the middle of the part has.
-    fn middle(&self, directions: [N::Direction; 2], scale: f64) -> Option<MeanBounds> {
+    fn middle(&self, scale: f64) -> Option<MeanBounds> {
         let [u, v] = &self.rates;
-        let second = [(u, directions[0]), (u, directions[1]), (v, directions[1])];
-        let [uu, uv, vv] = second.map(|(rate, along)| rate.net.derivative(along).middle() * (scale * scale));
+        let [uu, uv, vv] = self.second.each_ref().map(|rate| rate.middle * (scale * scale));
         let terms = [self.net.middle(), u.middle * scale, v.middle * scale, uu, uv, vv];
         let jet = DualJet { terms }.mean()?.in_object_space(&self.frame);
         Some(MeanBounds {
@@ -315,7 +317,7 @@ impl<N: DualNet> Centred<N> {
     }
 
     /// Bounds in the parameters of the patch, and how much wider the box is than the hull.
-    fn bounds(&self, directions: [N::Direction; 2], scale: f64) -> (MeanBounds, f64) {
+    fn bounds(&self, scale: f64) -> (MeanBounds, f64) {
         let e = self.deviation;
         let (axes, own) = (self.frame.axes, DMat3::IDENTITY);
         let stretch = norm(axes);
@@ -336,8 +338,7 @@ impl<N: DualNet> Centred<N> {
             let object = rate.longest(DVec3::ZERO, axes) + stretch * (others + solved);
             (rate.middle.information.length() + off, off, object)
         });
-        let second = |a: usize, b: usize| {
-            let rate = Rate::new(rates[a].net.derivative(directions[b]));
+        let second = |rate: &Rate<N>, a: usize, b: usize| {
             let product = |h: usize, k: usize| rates[h].middle.precision * rates[k].middle.information;
             let off = |h: usize, k: usize| {
                 let middle = first[k].0 - first[k].1;
@@ -355,7 +356,12 @@ impl<N: DualNet> Centred<N> {
             low,
             high,
             first: first.map(|(_, _, object)| object * scale.abs()),
-            second: [second(0, 0), second(0, 1), second(1, 1)].map(|bound| bound * scale * scale),
+            second: [
+                second(&self.second[0], 0, 0),
+                second(&self.second[1], 0, 1),
+                second(&self.second[2], 1, 1),
+            ]
+            .map(|bound| bound * scale * scale),
         };
         (bounds, stretch * e * reach)
     }
@@ -377,10 +383,9 @@ impl<N: DualNet> Centred<N> {
     }
 }
 
-/// The norm of a matrix whose columns are at right angles but for a map of another frame: at most that of Frobenius.
+/// A bound of the norm of a matrix, exact where its columns are at right angles (Gershgorin, of the matrix of their products).
 fn norm(matrix: DMat3) -> f64 {
     let columns = [matrix.x_axis, matrix.y_axis, matrix.z_axis];
-    let [x, y, z] = columns;
-    let gram = Symmetric3::from_array([x.dot(x), x.dot(y), x.dot(z), y.dot(y), y.dot(z), z.dot(z)]);
-    gram.eigen().values[0].max(0.0).sqrt()
+    let row = |column: &DVec3| columns.iter().map(|other| column.dot(*other).abs()).sum::<f64>();
+    columns.iter().map(row).fold(0.0, f64::max).sqrt()
 }

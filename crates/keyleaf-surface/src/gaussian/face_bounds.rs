@@ -9,8 +9,11 @@ use crate::subdivision::bound::{self, RootBound};
 use crate::subdivision::neighbourhoods::Neighbourhoods;
 use glam::DVec3;
 
-/// How many cuts into four there may be a face.
-const CUTS: usize = 24;
+/// How many cuts into four there may be a face, so that bounds are closer.
+const CUTS: usize = 6;
+
+/// How many there may be, so that there are bounds.
+const CUTS_FOR_ANY: usize = 1000;
 
 /// How many times as large as what has been found anything may be on a patch without bounds. Only precisions that are positive definite
 /// by a hair, or not at all, leave one.
@@ -78,7 +81,7 @@ fn of_face<N: DualNet>(
             })
         })
         .collect();
-    let most = wholes.len() + 3 * CUTS;
+    let most = [CUTS, CUTS_FOR_ANY].map(|cuts| wholes.len() + 3 * cuts);
     let (bounds, found) = of_patches(wholes, directions, most);
     let unknown = found.map_or(MeanBounds::NONE, |found| found.widened(WITHOUT_BOUNDS));
     bounds.into_iter().map(|bounds| bounds.unwrap_or(unknown)).collect()

@@ -1,7 +1,7 @@
 //! Linear equations with a symmetric positive definite 3 × 3 matrix.
 
 use super::symmetric::Symmetric3;
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 /// P S Pᵀ = L D Lᵀ, rows in the order of the largest pivots.
 ///
@@ -44,6 +44,20 @@ impl Ldl {
         })
     }
 
+    /// T with Tᵀ S T = 1: Pᵀ L⁻ᵀ D^(−1/2).
+    pub(super) fn whitening(&self) -> DMat3 {
+        let [l10, l20, l21] = self.lower;
+        let columns = [[1.0, 0.0, 0.0], [-l10, 1.0, 0.0], [l10 * l21 - l20, -l21, 1.0]];
+        let [x, y, z] = [0, 1, 2].map(|k| {
+            let mut column = [0.0; 3];
+            for (row, value) in self.order.into_iter().zip(columns[k]) {
+                column[row] = value / self.pivots[k].sqrt();
+            }
+            DVec3::from_array(column)
+        });
+        DMat3::from_cols(x, y, z)
+    }
+
     /// x with S x = b.
     pub fn solve(&self, b: DVec3) -> DVec3 {
         let b = b.to_array();
@@ -76,7 +90,7 @@ pub fn solve_by_adjugate(matrix: Symmetric3, b: DVec3) -> Option<DVec3> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::{DMat3, EulerRot};
+    use glam::EulerRot;
 
     #[test]
     fn both_solve_and_indefinite_matrices_are_refused() {
@@ -85,7 +99,10 @@ mod tests {
         for values in [[1.0, 2.0, 3.0], [1e5, 1.0, 1e-2], [1e-9, 2e-9, 1e-9], [5.0, 5.0, 5.0]] {
             let matrix = Symmetric3::diagonal(values).congruent(t);
             let b = matrix * x;
-            assert!(Ldl::new(matrix).expect("definite").solve(b).distance(x) < 1e-8);
+            let factors = Ldl::new(matrix).expect("definite");
+            assert!(factors.solve(b).distance(x) < 1e-8);
+            let one = matrix.congruent(factors.whitening());
+            assert!((one - Symmetric3::IDENTITY).norm() < 1e-8, "{one:?}");
             // The adjugate squares the condition.
             assert!(solve_by_adjugate(matrix, b).expect("definite").distance(x) < 1e-3);
         }

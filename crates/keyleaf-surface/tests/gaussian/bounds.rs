@@ -2,7 +2,7 @@
 
 use crate::models::{Random, disk, sheet, square, triangle};
 use glam::DVec3;
-use keyleaf_surface::gaussian::{DualFrame, MeanBounds, MeanJet};
+use keyleaf_surface::gaussian::{Dual, DualFrame, DualSquare, MeanBounds, MeanJet, Symmetric3};
 
 /// Into how many parts a patch may be cut.
 const PARTS: usize = 600;
@@ -178,15 +178,17 @@ fn equal_covariances_have_the_bounds_of_a_bezier_patch() {
 }
 
 #[test]
-fn patches_that_may_be_indefinite_have_no_bounds() {
-    let mut random = Random(8);
-    let gaussians = sheet(4, 10.0, 1.0, &mut random);
-    let frame = DualFrame::whitened(&gaussians);
-    let patch = square(&gaussians, &frame);
-    assert!(patch.bounds(&frame, 64).is_some());
-    let mut last = gaussians.clone();
-    last[5].1 = disk(1e6, random.rotation(3.0));
-    last[6].1 = disk(1e6, random.rotation(3.0));
-    assert_eq!(square(&last, &frame).bounds(&frame, 1), None);
-    assert!(square(&last, &frame).bounds(&frame, PARTS).is_some());
+fn patches_that_may_be_indefinite_have_no_bounds_until_they_are_cut() {
+    let controls = (0..16).map(|k| {
+        let at = DVec3::new(f64::from(k % 4), f64::from(k / 4), 0.0);
+        // Nowhere more than a fifth of the patch.
+        let precision = Symmetric3::IDENTITY * if k == 5 { -1.0 } else { 1.0 };
+        Dual {
+            precision,
+            information: precision * at,
+        }
+    });
+    let patch = DualSquare::new([3, 3], controls.collect()).expect("16 control points");
+    assert_eq!(patch.bounds(&DualFrame::OBJECT, 1), None);
+    assert!(patch.bounds(&DualFrame::OBJECT, PARTS).is_some());
 }

@@ -3,6 +3,7 @@
 mod bounds;
 mod conditioning;
 mod covariances;
+mod emulation;
 mod models;
 mod oracles;
 mod patches;
@@ -10,3 +11,4 @@ mod products;
 mod refine;
 mod shaders;
 mod surface;
+mod surface_bounds;

@@ -1,5 +1,6 @@
 //! The program as a user meets it: exit codes, messages, and files that are whole or not there.
 
+mod accuracy;
 mod back_faces;
 mod bad_input;
 mod flights;

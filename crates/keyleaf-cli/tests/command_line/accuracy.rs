@@ -1,0 +1,88 @@
+//! The tables of what accuracy costs.
+
+use crate::Folder;
+use serde_json::Value;
+
+fn report(folder: &Folder, arguments: &str) -> Value {
+    let output = folder.run(arguments);
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{arguments}: {message}");
+    serde_json::from_slice(&output.stdout).unwrap()
+}
+
+fn scene(name: &str) -> String {
+    format!("{}/../../scenes/{name}.ron", env!("CARGO_MANIFEST_DIR"))
+}
+
+#[test]
+fn culling_that_loses_nothing_has_the_psnr_of_the_rasterisers() {
+    let folder = Folder::new("accuracy-culling");
+    let arguments = format!(
+        "accuracy {} --suite concheiro --table culling --size 96x72",
+        scene("torus")
+    );
+    let report = report(&folder, &format!("{arguments} --frames 1 --json --quiet"));
+    let rows = report["tables"][0]["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 6 * 5);
+    let row = |how: &str, pixels: f64| {
+        let found = rows.iter().find(|r| r["back_faces"] == how && r["pixels"] == pixels);
+        found.unwrap_or_else(|| panic!("no row {how} {pixels}"))
+    };
+    let triangles = |how, pixels| row(how, pixels)["triangles"].as_u64().unwrap();
+    for pixels in [1.0, 2.0, 4.0, 8.0, 16.0] {
+        for exact in ["conservative", "leaves"] {
+            assert_eq!(
+                row(exact, pixels)["psnr_db"],
+                row("hidden", pixels)["psnr_db"],
+                "{exact} {pixels}"
+            );
+            assert!(triangles(exact, pixels) <= triangles("hidden", pixels));
+        }
+        assert_eq!(triangles("drawn", pixels), triangles("hidden", pixels));
+        assert!(triangles("leaves", pixels) < triangles("drawn", pixels), "{pixels}");
+    }
+    // Finer is closer.
+    let decibels = |pixels| row("drawn", pixels)["psnr_db"].as_f64().unwrap();
+    assert!(decibels(1.0) > decibels(4.0) && decibels(4.0) > decibels(16.0));
+}
+
+#[test]
+fn tessellations_are_compared_with_the_quadtree_at_the_same_psnr() {
+    let folder = Folder::new("accuracy-methods");
+    let arguments = format!(
+        "accuracy {} --suite concheiro --table methods --size 96x72",
+        scene("torus")
+    );
+    let report = report(&folder, &format!("{arguments} --json --quiet"));
+    let rows = report["tables"][0]["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 3 * 8);
+    for row in rows {
+        assert!(row["triangles"].as_u64().unwrap() > 0, "{row}");
+        assert!(row["psnr_db"].as_f64().unwrap() > 15.0, "the same torus: {row}");
+    }
+    let high_and_low = |method: &str| {
+        let mut of = rows.iter().filter(|row| row["method"] == method);
+        let mut next = || of.next().unwrap()["triangles"].as_u64().unwrap();
+        (next(), (next(), next()).1)
+    };
+    for method in ["uniform per surface", "uniform per KSQuad", "DABT, length test"] {
+        let (high, low) = high_and_low(method);
+        assert!(high > low, "{method}: {high} triangles at high quality, {low} at low");
+    }
+}
+
+#[test]
+fn what_has_no_patches_is_refused() {
+    let folder = Folder::new("accuracy-refused");
+    for (arguments, expected) in [
+        ("accuracy cube.obj --suite concheiro", "no Bézier or NURBS surface"),
+        ("accuracy --suite concheiro --table culling", "expected a SCENE"),
+        ("accuracy --suite concheiro", "<SCENE>"),
+        ("accuracy cube.obj --suite nobody", "concheiro"),
+    ] {
+        let output = folder.run(arguments);
+        let message = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments}: {message}");
+        assert!(message.contains(expected), "{arguments}: {message}");
+    }
+}

@@ -88,6 +88,35 @@ fn positions_and_frames_agree_with_the_twin() {
 }
 
 #[test]
+fn random_patches_of_every_degree_agree_with_the_twin() {
+    let Some(device) = Device::new() else {
+        eprintln!("no adapter: skipped");
+        return;
+    };
+    for seed in 0..3 {
+        let surface = fixtures::random_patches(seed);
+        let source = shaders::composed(surface.shader());
+        let mut random = Random(seed);
+        let points: Vec<RootPoint> = (0..20_000).map(|_| random.point(surface.topology())).collect();
+        let words = surface.topology().gpu_words();
+        let tables = surface.tables(DVec3::ZERO);
+        let frames = evaluate(&device, &source, &tables, &words, &points, &[]).frames;
+        let (mut worst, mut worst_angle): (f64, f64) = (0.0, 0.0);
+        for (&at, gpu) in points.iter().zip(&frames) {
+            let truth = surface.frame(at);
+            worst = worst.max((gpu.point.as_dvec3() - truth.position).abs().max_element() / EPSILON);
+            assert!((gpu.normal.length() - 1.0).abs() < 1e-6, "{at:?}: {gpu:?}");
+            if truth.du.cross(truth.dv).length() >= 1e-3 * truth.du.length() * truth.dv.length() {
+                worst_angle = worst_angle.max(gpu.normal.as_dvec3().distance(truth.normal));
+            }
+        }
+        println!("seed {seed}: {worst:.2} eps, {worst_angle:.1e} rad");
+        assert!(worst <= 16.0 * fixtures::RANDOM_PATCH_SIZE, "seed {seed}: {worst} eps");
+        assert!(worst_angle <= 1e-4, "seed {seed}: {worst_angle} rad");
+    }
+}
+
+#[test]
 fn maps_are_exact_near_the_origin_however_large_they_are() {
     let Some(device) = Device::new() else {
         eprintln!("no adapter: skipped");

@@ -8,6 +8,7 @@ mod models;
 mod oracles;
 mod pictures;
 mod reports;
+mod subdivision;
 
 use serde_json::Value;
 use std::path::PathBuf;

@@ -12,8 +12,8 @@
 //!   products, so that the terms may cancel.
 //!
 //! Hulls are mapped to object space as they are, remainders by the norm of the map. e falls with the size of a part, and the bounds
-//! become those of q̄. So the part whose bounds exceed by most what has been found on the patch is cut into four, until none exceeds
-//! it by more than [`SLACK`] or there are enough parts.
+//! become those of q̄. So the half of the parts whose bounds exceed by most what has been found is cut into four, again and again, until
+//! none exceeds it by more than [`SLACK`] or there are enough parts.
 //!
 //! # Costs
 //!

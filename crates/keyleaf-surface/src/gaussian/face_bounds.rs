@@ -10,7 +10,7 @@ use crate::subdivision::neighbourhoods::Neighbourhoods;
 use glam::DVec3;
 
 /// How many cuts into four there may be a face, so that bounds are closer.
-const CUTS: usize = 6;
+const CUTS: usize = 12;
 
 /// How many there may be, so that there are bounds.
 const CUTS_FOR_ANY: usize = 1000;

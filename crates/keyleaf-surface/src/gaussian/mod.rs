@@ -11,8 +11,9 @@
 //! - q̄ = Σ⁻¹ μ of absolute coordinates cancels in f32: at an offset of 1e4 and a condition of 1e4 by 7 % of the patch. Here a patch has
 //!   its own [`DualFrame`]: means relative to a centre, and preferably *whitened*, so that disks that are parallel or nearly so become
 //!   round and lose no digits at all.
-//! - The inverse is an LDLᵀ factorisation with pivots and one step of refinement, not the adjugate, which is indefinite in a quarter of
-//!   the cases at a condition of 1e5.
+//! - The inverse is an LDLᵀ factorisation with pivots, in f64 with one step of refinement, not the adjugate, which is indefinite in a
+//!   quarter of the cases at a condition of 1e5.
+//! - Terminal patches are those of the scheme behind, in dual space; in the thesis extraordinary corners are approximated in one patch.
 //! - Equation 3.1 gives the inward normal of counter-clockwise triangles, and 2.15 and 3.10 transpose each other's indices.
 //!
 //! # In f32

@@ -233,7 +233,6 @@ fn shipped_models_have_normals_that_point_outwards() {
     }
 }
 
-/// A closed surface of about 250 faces.
 #[test]
 #[ignore = "prints times; run alone, in release"]
 fn time_of_making() {

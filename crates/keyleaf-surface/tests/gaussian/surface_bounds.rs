@@ -137,5 +137,6 @@ fn sizes_are_tight_enough() {
         }
         let size = f64::exp(over / count);
         println!("{name}: size {size:.2} times half the greatest speed found, at most {most:.1}");
+        assert!(size < 40.0, "{name}: {size}");
     }
 }

@@ -9,7 +9,13 @@ struct Basis {
     slope: array<f32, 8>,
 }
 
-fn patch_position(p: Patch, at: PatchCoord, u: ptr<function, Basis>, v: ptr<function, Basis>) -> vec3f {
+// A point as a control point next to it and the rest, which keeps its digits where it is small.
+struct PatchPoint {
+    reference: vec3f,
+    offset: vec3f,
+}
+
+fn patch_position(p: Patch, at: PatchCoord, u: ptr<function, Basis>, v: ptr<function, Basis>) -> PatchPoint {
     let nearest = vec2u(at.f * vec2f(p.degree) + 0.5);
     let reference = surface_a[p.base + nearest.x + nearest.y * p.stride].xyz;
     var sum = vec4f(0.0);
@@ -22,11 +28,11 @@ fn patch_position(p: Patch, at: PatchCoord, u: ptr<function, Basis>, v: ptr<func
         sum += (*v).value[l] * row;
     }
     // All weights that count are zero only at a corner whose own is.
-    return select(reference, reference + sum.xyz / sum.w, sum.w > 0.0);
+    return PatchPoint(reference, select(vec3f(0.0), sum.xyz / sum.w, sum.w > 0.0));
 }
 
 // Derivatives at a position, times the total weight: sums of differences of w (P - position).
-fn tangents_at(p: Patch, position: vec3f, u: ptr<function, Basis>, v: ptr<function, Basis>) -> Tangents {
+fn tangents_at(p: Patch, position: PatchPoint, u: ptr<function, Basis>, v: ptr<function, Basis>) -> Tangents {
     var t: Tangents;
     var weight = 0.0;
     var value_before = vec3f(0.0);
@@ -38,7 +44,7 @@ fn tangents_at(p: Patch, position: vec3f, u: ptr<function, Basis>, v: ptr<functi
         var before = vec3f(0.0);
         for (var k = 0u; k <= p.degree.x; k++) {
             let point = surface_a[p.base + k + l * p.stride];
-            let arm = point.w * (point.xyz - position);
+            let arm = point.w * ((point.xyz - position.reference) - position.offset);
             value += (*u).value[k] * arm;
             row_weight += (*u).value[k] * point.w;
             if k > 0u {
@@ -65,7 +71,8 @@ fn tangents_at(p: Patch, position: vec3f, u: ptr<function, Basis>, v: ptr<functi
 fn patch_point(p: Patch, at: PatchCoord) -> vec3f {
     var u = basis(p.spans.x, p.degree.x, at.f.x, at.g.x);
     var v = basis(p.spans.y, p.degree.y, at.f.y, at.g.y);
-    return patch_position(p, at, &u, &v);
+    let position = patch_position(p, at, &u, &v);
+    return position.reference + position.offset;
 }
 
 fn patch_tangents(p: Patch, at: PatchCoord) -> Tangents {

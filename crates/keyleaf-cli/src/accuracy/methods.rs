@@ -69,7 +69,7 @@ pub fn table(setup: &Setup<'_>, loaded: &Loaded, view: &View) -> anyhow::Result<
         .surface
         .as_patches()
         .context("the surface is no model of patches")?;
-    let sampler = PatchSampler(patches);
+    let sampler = PatchSampler::new(patches);
     let seen = seen_from(loaded, view, setup)?;
     let back_faces = object.settings.back_faces;
     let fine = reference(setup, loaded, view, back_faces)?;

@@ -10,28 +10,47 @@ use keyleaf_stage::LoadedObject;
 use std::sync::Arc;
 
 /// A model of patches, with u and v as they are drawn.
-pub struct PatchSampler<'a>(pub &'a Patches);
+pub struct PatchSampler<'a> {
+    patches: &'a Patches,
+    /// First and last knot of each surface in u and v.
+    domains: Vec<[[f64; 2]; 2]>,
+}
 
-impl PatchSampler<'_> {
+impl<'a> PatchSampler<'a> {
+    pub fn new(patches: &'a Patches) -> Self {
+        let ends = |knots: Vec<f64>| [knots[0], knots[knots.len() - 1]];
+        let domain = |surface| patches.knots_of(surface).map(ends);
+        Self {
+            patches,
+            domains: (0..patches.surfaces().len() as u32).map(domain).collect(),
+        }
+    }
+
     /// The point with parameters of a surface as it is drawn.
     fn address(&self, surface: usize, at: DVec2) -> RootPoint {
-        let is_transposed = self.0.report().transposed.binary_search(&(surface as u32)).is_ok();
+        let is_transposed = self
+            .patches
+            .report()
+            .transposed
+            .binary_search(&(surface as u32))
+            .is_ok();
+        // Rounding may lead out of the domain.
+        let [low, high] = [0, 1].map(|end| {
+            let [u, v] = &self.domains[surface];
+            DVec2::new(u[end], v[end])
+        });
+        let at = at.clamp(low, high);
         let [s, t] = if is_transposed { [at.y, at.x] } else { [at.x, at.y] };
-        let found = self.0.own_coord(surface as u32, s, t);
-        // The tessellators stay in the domain.
-        found.map_or(
-            RootPoint {
-                face: 0,
-                root: 0,
-                x: 0,
-                y: 0,
-            },
-            |coord| coord.at,
-        )
+        let found = self.patches.own_coord(surface as u32, s, t);
+        found.map_or_else(|error| unreachable!("{error}"), |coord| coord.at)
     }
 
     fn normal(&self, surface: usize, at: DVec2) -> [f32; 3] {
-        self.0.frame(self.address(surface, at)).normal.as_vec3().to_array()
+        self.patches
+            .frame(self.address(surface, at))
+            .normal
+            .as_vec3()
+            .to_array()
     }
 }
 
@@ -54,29 +73,29 @@ const SIDES: [keyleaf_baseline::Side; 4] = [
 
 impl Sampler for PatchSampler<'_> {
     fn surfaces(&self) -> usize {
-        self.0.surfaces().len()
+        self.patches.surfaces().len()
     }
 
     fn point(&self, surface: usize, at: DVec2) -> DVec3 {
-        self.0.point(self.address(surface, at))
+        self.patches.point(self.address(surface, at))
     }
 
     fn spans(&self, surface: usize) -> [Vec<f64>; 2] {
-        self.0.knots_of(surface as u32)
+        self.patches.knots_of(surface as u32)
     }
 
     fn boundary(&self, surface: usize, side: keyleaf_baseline::Side) -> Boundary {
-        let half_edges = self.0.half_edges_of(surface as u32, side_of(side));
-        let topology = self.0.topology();
+        let half_edges = self.patches.half_edges_of(surface as u32, side_of(side));
+        let topology = self.patches.topology();
         let twins: Option<Vec<_>> = half_edges.iter().map(|h| topology.twin(h.face, h.root)).collect();
         let Some([first, rest @ ..]) = twins.as_deref() else {
             return Boundary::Free;
         };
-        let Some(other) = self.0.surface_of(first.face) else {
+        let Some(other) = self.patches.surface_of(first.face) else {
             return Boundary::Free;
         };
         // A side that meets parts of several others, beside a tear, stays free.
-        let beyond = self.0.half_edges_of(other, side_of(SIDES[first.root as usize]));
+        let beyond = self.patches.half_edges_of(other, side_of(SIDES[first.root as usize]));
         let is_whole =
             beyond.len() == half_edges.len() && rest.iter().all(|twin| beyond.contains(twin)) && beyond.contains(first);
         if !is_whole {

@@ -153,7 +153,7 @@ impl Default for NormalCovariances {
 /// How the matrices of a Gaussian-product surface are inverted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Solver {
-    /// LDLᵀ with a step of refinement.
+    /// LDLᵀ, the largest pivot first.
     #[default]
     Ldlt,
     /// The adjugate over the determinant, as Komar has it: to compare with.

@@ -40,7 +40,10 @@ pub fn tables(surface: &GaussianProduct, origin: DVec3) -> SurfaceTables {
     let rounding = POSITION_ERROR * largest + MEAN_ERROR * surface.longest_patch();
     let own = patches.frames.iter().zip(patches.controls.chunks_exact(patches.size));
     SurfaceTables {
-        params: words.params(patches.frames.len() * entries, rounding + surface.terminal_error()),
+        params: words.params(
+            patches.frames.len() * entries,
+            rounding + 2.0 * surface.terminal_error(),
+        ),
         a: own
             .flat_map(|(own, controls)| frame_floats(&own.frame, origin).chain(control_floats(controls)))
             .chain(surface.normals.iter().flat_map(|&normal| vector_entry(normal)))

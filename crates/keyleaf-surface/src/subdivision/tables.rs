@@ -54,7 +54,7 @@ pub fn tables(surface: &Subdivision, origin: DVec3) -> SurfaceTables {
     });
     let params = words.params(
         surface.points.len(),
-        POSITION_ERROR * surface.largest_coordinate(origin) + surface.terminal_error,
+        POSITION_ERROR * surface.largest_coordinate(origin) + 2.0 * surface.terminal_error,
     );
     SurfaceTables {
         params,

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 /// Every surface module.
-pub const SURFACES: [&str; 16] = [
+pub const SURFACES: [&str; 20] = [
     "surfaces/mesh.wgsl",
     "surfaces/displaced_texture.wgsl",
     "surfaces/displaced_noise.wgsl",
@@ -21,6 +21,10 @@ pub const SURFACES: [&str; 16] = [
     "surfaces/loop.wgsl",
     "surfaces/qas.wgsl",
     "surfaces/pn.wgsl",
+    "surfaces/gaussian_catmull_clark.wgsl",
+    "surfaces/gaussian_catmull_clark_adjugate.wgsl",
+    "surfaces/gaussian_loop.wgsl",
+    "surfaces/gaussian_loop_adjugate.wgsl",
 ];
 
 /// A file after all that it requires.

@@ -31,39 +31,44 @@ fn patch_position(p: Patch, at: PatchCoord, u: ptr<function, Basis>, v: ptr<func
     return PatchPoint(reference, select(vec3f(0.0), sum.xyz / sum.w, sum.w > 0.0));
 }
 
-// Derivatives at a position, times the total weight: sums of differences of w (P - position).
+// Derivatives at a position S: those of the weighted sum of w (P - S), over the weight. That sum should be zero, but S is rounded; what is
+// left of it times the derivative of the weight is taken off.
 fn tangents_at(p: Patch, position: PatchPoint, u: ptr<function, Basis>, v: ptr<function, Basis>) -> Tangents {
     var t: Tangents;
+    var rest = vec3f(0.0);
     var weight = 0.0;
-    var value_before = vec3f(0.0);
+    var weight_slopes = vec2f(0.0);
+    var value_before = vec4f(0.0);
     var slope_before = vec3f(0.0);
     for (var l = 0u; l <= p.degree.y; l++) {
-        var value = vec3f(0.0);
-        var slope = vec3f(0.0);
-        var row_weight = 0.0;
-        var before = vec3f(0.0);
+        var value = vec4f(0.0);
+        var slope = vec4f(0.0);
+        var before = vec4f(0.0);
         for (var k = 0u; k <= p.degree.x; k++) {
             let point = surface_a[p.base + k + l * p.stride];
-            let arm = point.w * ((point.xyz - position.reference) - position.offset);
+            let arm = vec4f(point.w * ((point.xyz - position.reference) - position.offset), point.w);
             value += (*u).value[k] * arm;
-            row_weight += (*u).value[k] * point.w;
             if k > 0u {
                 slope += (*u).slope[k - 1u] * (arm - before);
             }
             before = arm;
         }
-        weight += (*v).value[l] * row_weight;
-        t.du += (*v).value[l] * slope;
+        rest += (*v).value[l] * value.xyz;
+        weight += (*v).value[l] * value.w;
+        t.du += (*v).value[l] * slope.xyz;
+        weight_slopes.x += (*v).value[l] * slope.w;
         if l > 0u {
-            t.dv += (*v).slope[l - 1u] * (value - value_before);
-            t.duv += (*v).slope[l - 1u] * (slope - slope_before);
+            t.dv += (*v).slope[l - 1u] * (value - value_before).xyz;
+            weight_slopes.y += (*v).slope[l - 1u] * (value - value_before).w;
+            t.duv += (*v).slope[l - 1u] * (slope.xyz - slope_before);
         }
         value_before = value;
-        slope_before = slope;
+        slope_before = slope.xyz;
     }
     let per_weight = select(0.0, 1.0 / weight, weight > 0.0);
-    t.du *= f32(p.degree.x) * per_weight;
-    t.dv *= f32(p.degree.y) * per_weight;
+    rest *= per_weight;
+    t.du = (t.du - weight_slopes.x * rest) * (f32(p.degree.x) * per_weight);
+    t.dv = (t.dv - weight_slopes.y * rest) * (f32(p.degree.y) * per_weight);
     t.duv *= f32(p.degree.x * p.degree.y) * per_weight;
     return t;
 }

@@ -13,7 +13,7 @@ struct Dual {
     c: f32,
 }
 
-fn control(first: u32, place: u32, last: u32) -> Dual {
+fn dual_control(first: u32, place: u32, last: u32) -> Dual {
     let entry = first + FRAME_ENTRIES + 2u * place;
     return Dual(surface_a[entry], surface_a[entry + 1u], surface_a[last + (place >> 2u)][place & 3u]);
 }

@@ -8,7 +8,7 @@ fn place_of(j: u32, k: u32) -> u32 {
 }
 
 fn control_at(first: u32, j: u32, k: u32) -> Dual {
-    return control(first, place_of(j, k), first + FRAME_ENTRIES + 30u);
+    return dual_control(first, place_of(j, k), first + FRAME_ENTRIES + 30u);
 }
 
 // Powers 0 to 3.

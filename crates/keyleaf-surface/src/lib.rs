@@ -50,6 +50,7 @@ mod patches;
 mod polygon_mesh;
 mod quad_coord;
 mod quadratic;
+mod root_bound;
 mod stencil;
 mod subdivision;
 mod surface;

@@ -8,14 +8,20 @@ use super::studio::{Setup, Studio, with_object, with_settings};
 use crate::output::thousands;
 use crate::progress;
 use anyhow::Context;
-use keyleaf::{BackFaces, Metric, Projection, View};
+use keyleaf::{BackFaces, Metric, Projection, Threshold, View};
 use keyleaf_baseline::{Method, Quality, deviation};
 use keyleaf_stage::{Loaded, Pipelines};
 use serde_json::json;
 
-/// How the quadtree is refined, by the distance to the surface or by length, and from which threshold to which, in pixels.
-const METRICS: [(&str, fn(f32) -> Metric, [f32; 2]); 2] = [
+/// How the quadtree is refined: by a bound of the distance to the surface, by that distance as sampled, or by length; and from which
+/// threshold to which, in pixels.
+const METRICS: [(&str, fn(f32) -> Metric, [f32; 2]); 3] = [
     ("deviation", |pixels| Metric::Deviation { pixels }, [1.0 / 32.0, 32.0]),
+    (
+        "distance test",
+        |pixels| Metric::DistanceTest(Threshold::Pixels(pixels)),
+        [1.0 / 32.0, 32.0],
+    ),
     ("edge", |pixels| Metric::Edge { pixels }, [1.0, 64.0]),
 ];
 
@@ -139,6 +145,8 @@ pub fn table(setup: &Setup<'_>, loaded: &Loaded, view: &View) -> anyhow::Result<
             "error px",
             "PSNR dB",
             "quadtree, deviation",
+            "times fewer",
+            "quadtree, distance test",
             "times fewer",
             "quadtree, edge",
             "times fewer",

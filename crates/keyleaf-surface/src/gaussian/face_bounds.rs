@@ -4,8 +4,9 @@ use super::bound::{MeanBounds, Whole, of_patches};
 use super::dual_patches::DualPatches;
 use super::patch::DualNet;
 use crate::SubdivisionScheme;
+use crate::root_bound::RootBound;
 use crate::subdivision::bezier::Slopes;
-use crate::subdivision::bound::{self, RootBound};
+use crate::subdivision::bound;
 use crate::subdivision::neighbourhoods::Neighbourhoods;
 use glam::DVec3;
 

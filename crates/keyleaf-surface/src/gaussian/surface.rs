@@ -8,9 +8,9 @@ use super::symmetric::Symmetric3;
 use super::{tables, terminal};
 use crate::direction::frame_normal;
 use crate::mesh::unit_or_up;
+use crate::root_bound::RootBound;
 use crate::subdivision::addresses::canonical;
 use crate::subdivision::approximation::{square_patch, triangle_patch};
-use crate::subdivision::bound::{self, RootBound};
 use crate::subdivision::cage::Cage;
 use crate::subdivision::cell::{DomainPoint, TrianglePoint};
 use crate::subdivision::exact::{self, ExactPoint};
@@ -267,7 +267,7 @@ impl GaussianProduct {
             roots.extend(own.roots);
             (low, high) = (low.min(own.low), high.max(own.high));
         }
-        self.bounds = bound::of_both_sides(topology, roots);
+        self.bounds = RootBound::of_both_sides(topology, roots);
         self.box_of_patches = (low, high);
     }
 }
@@ -332,7 +332,7 @@ impl Surface for GaussianProduct {
 
     fn bound(&self, leaf: &Place) -> SurfaceBound {
         let root = &self.bounds[self.topology.half_edge_index(leaf.face, leaf.root) as usize];
-        root.of_leaf(leaf, self.point(diamond::centre(leaf)), self.terminal_error)
+        root.of_leaf(leaf, self.point(diamond::centre(leaf)), 2.0 * self.terminal_error)
     }
 
     fn bounding_box(&self) -> (DVec3, DVec3) {

@@ -5,6 +5,7 @@
 
 use super::bezier_net::{BezierNet, DerivativeBounds};
 use super::evaluation::KsQuad;
+use crate::root_bound::RootBound;
 
 /// A KSQuad is bounded in parts, 4^this of them.
 const DEPTH: u32 = 2;
@@ -15,28 +16,15 @@ const DEPTH_OF_ZERO_WEIGHTS: u32 = 4;
 /// Weights are uneven when their ratio is greater.
 const UNEVEN: f64 = 4.0;
 
-/// Bounds of a root, for both roots of a mesh edge alike.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct RootBound {
-    /// Times 2^−level: half the hypotenuse and the median.
-    pub size: f64,
-    /// Times 2^−level: the surface over the diamond about the middle of the hypotenuse.
-    pub ball: f64,
-    /// Times 4^−level: the distance between the surface and flat triangles as large as the node.
-    pub deviation: f64,
-}
-
-impl RootBound {
-    fn of(bounds: DerivativeBounds) -> Self {
-        let ([u, v], [uu, uv, vv]) = (bounds.first, bounds.second);
-        // |du| + |dv| is at most half the hypotenuse over a diamond, so that the greater speed bounds its ball as well.
-        let half_speed = u.max(v) / 2.0;
-        Self {
-            size: half_speed,
-            ball: half_speed,
-            // Of linear interpolation over a triangle in the unit square.
-            deviation: (uu + 2.0 * uv + vv) / 8.0,
-        }
+fn of_derivatives(bounds: DerivativeBounds) -> RootBound {
+    let ([u, v], [uu, uv, vv]) = (bounds.first, bounds.second);
+    // |du| + |dv| is at most half the hypotenuse over a diamond, so that the greater speed bounds its ball as well.
+    let half_speed = u.max(v) / 2.0;
+    RootBound {
+        size: half_speed,
+        ball: half_speed,
+        // Of linear interpolation over a triangle in the unit square.
+        deviation: (uu + 2.0 * uv + vv) / 8.0,
     }
 }
 
@@ -64,7 +52,7 @@ pub fn of_roots(quad: &KsQuad<'_>) -> [RootBound; 4] {
             .filter(|&(cell, _)| overlaps(root, cell, side))
             .fold(DerivativeBounds::default(), |bounds, (_, &part)| bounds.max(part))
     };
-    [0, 1, 2, 3].map(|root| RootBound::of(of_root(root)))
+    [0, 1, 2, 3].map(|root| of_derivatives(of_root(root)))
 }
 
 /// Whether a cell of the grid has a part inside the quarter of the square at edge `root`.

@@ -48,14 +48,13 @@ pub use nurbs_surface::NurbsSurface;
 pub use report::{Boundary, JoinReport, Pole, Unjoined};
 
 use crate::quad_coord::QuadCoord;
-use crate::stencil::over_edges;
+use crate::root_bound::RootBound;
 use crate::{OwnCoord, ParameterError, SettingError, Surface, SurfaceBound, SurfaceFrame, SurfaceTables, diamond};
 use addresses::Addresses;
-use bound::RootBound;
 use evaluation::KsQuad;
 use glam::DVec3;
 use join::Joined;
-use keyleaf_key::{HalfEdge, MAX_LEVEL, Place, RootPoint, Topology};
+use keyleaf_key::{HalfEdge, Place, RootPoint, Topology};
 use layout::Layout;
 use normal_cone::NormalCone;
 use span::Fraction;
@@ -174,7 +173,7 @@ impl Patches {
         let addresses = Addresses::new(&topology, quad_of);
         let normals = faces().map(|face| normal::mean(&quad_of(face))).collect();
         let bounds: Vec<RootBound> = faces().flat_map(|face| bound::of_roots(&quad_of(face))).collect();
-        let bounds = larger_of_both_sides(&topology, &bounds);
+        let bounds = RootBound::of_both_sides(&topology, bounds);
         let mut patches = Self {
             kind,
             surfaces,
@@ -305,17 +304,6 @@ fn check_surfaces(surfaces: &[NurbsSurface], kind: PatchKind) -> Result<(), Patc
     Ok(())
 }
 
-fn larger_of_both_sides(topology: &Topology, bounds: &[RootBound]) -> Vec<RootBound> {
-    let larger = |field: fn(&RootBound) -> f64| over_edges(topology, &bounds.iter().map(field).collect::<Vec<_>>());
-    let (sizes, balls, deviations) = (larger(|b| b.size), larger(|b| b.ball), larger(|b| b.deviation));
-    sizes
-        .into_iter()
-        .zip(balls)
-        .zip(deviations)
-        .map(|((size, ball), deviation)| RootBound { size, ball, deviation })
-        .collect()
-}
-
 impl Surface for Patches {
     fn topology(&self) -> &Topology {
         &self.topology
@@ -339,16 +327,7 @@ impl Surface for Patches {
 
     fn bound(&self, leaf: &Place) -> SurfaceBound {
         let bound = self.bounds[self.topology.half_edge_index(leaf.face, leaf.root) as usize];
-        let ball = bound.ball * diamond::ball_scale(leaf.level);
-        let scale = diamond::level_scale(leaf.level);
-        SurfaceBound {
-            centre: self.point(diamond::centre(leaf)),
-            radius: ball + self.mismatch,
-            size: bound.size * scale,
-            // Centres may be off by the mismatch, at every level.
-            guard: 2.0 * ball + 2.0 * self.mismatch * f64::from(MAX_LEVEL + 2 - leaf.level),
-            deviation: bound.deviation * scale * scale,
-        }
+        bound.of_leaf(leaf, self.point(diamond::centre(leaf)), self.mismatch)
     }
 
     fn bounding_box(&self) -> (DVec3, DVec3) {

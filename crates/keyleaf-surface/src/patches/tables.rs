@@ -15,13 +15,13 @@
 //!   Equal lists are stored once.
 
 use super::basis::{BasisMethod, extraction_matrix};
-use super::bound::RootBound;
 use super::normal_cone::NormalCone;
 use super::power_form::PowerForm;
 use super::span::Span;
 use super::{PatchKind, Patches};
 use crate::direction::round_up;
 use crate::mesh::vector_entry;
+use crate::root_bound::RootBound;
 use crate::surface::uniform;
 use crate::{Surface, SurfaceTables};
 use encase::ShaderType;

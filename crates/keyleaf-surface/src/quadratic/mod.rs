@@ -39,8 +39,8 @@ pub use samples::{LimitSample, LimitSamples};
 
 use crate::direction::{cross_direction, frame_normal};
 use crate::mesh::unit_or_up;
+use crate::root_bound::RootBound;
 use crate::{ControlMesh, PolygonMesh, Surface, SurfaceBound, SurfaceFrame, SurfaceTables, diamond};
-use bound::RootBound;
 use glam::DVec3;
 use keyleaf_key::{HalfEdge, ONE, Place, RootPoint, Site, Topology};
 use net::{Barycentric, PositionNet, QuadraticNet, edge_control};
@@ -222,16 +222,8 @@ impl Surface for TrianglePatches {
     }
 
     fn bound(&self, leaf: &Place) -> SurfaceBound {
-        let RootBound { size, deviation } = self.bounds[self.topology.half_edge_index(leaf.face, leaf.root) as usize];
-        let scale = diamond::level_scale(leaf.level);
-        let radius = size * diamond::ball_scale(leaf.level);
-        SurfaceBound {
-            centre: self.point(diamond::centre(leaf)),
-            radius,
-            size: size * scale,
-            guard: 2.0 * radius,
-            deviation: deviation * scale * scale,
-        }
+        let bound = self.bounds[self.topology.half_edge_index(leaf.face, leaf.root) as usize];
+        bound.of_leaf(leaf, self.point(diamond::centre(leaf)), 0.0)
     }
 
     fn bounding_box(&self) -> (DVec3, DVec3) {

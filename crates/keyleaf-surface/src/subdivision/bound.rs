@@ -5,45 +5,9 @@
 use super::SubdivisionScheme;
 use super::bezier::Slopes;
 use super::tree::{CellPlace, Tree};
-use crate::{SurfaceBound, diamond};
-use glam::DVec3;
-use keyleaf_key::{MAX_LEVEL, Place, Topology};
-
-/// Bounds of a root, for both roots of a mesh edge alike.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct RootBound {
-    /// Times 2^−level: half the hypotenuse and the median.
-    pub size: f64,
-    /// Times 2^−level: the surface over the diamond about the middle of the hypotenuse.
-    pub ball: f64,
-    /// Times 4^−level: the distance between the surface and flat triangles as large as the node.
-    pub deviation: f64,
-}
+use crate::root_bound::RootBound;
 
 impl RootBound {
-    pub fn max(self, other: Self) -> Self {
-        Self {
-            size: self.size.max(other.size),
-            ball: self.ball.max(other.ball),
-            deviation: self.deviation.max(other.deviation),
-        }
-    }
-
-    /// Of a leaf, where what is drawn is off by at most `terminal_error`.
-    pub fn of_leaf(&self, leaf: &Place, centre: DVec3, terminal_error: f64) -> SurfaceBound {
-        let ball = self.ball * diamond::ball_scale(leaf.level);
-        let scale = diamond::level_scale(leaf.level);
-        // On mesh edges both the centre and the surface may be off by the error of terminal patches.
-        let error = 2.0 * terminal_error;
-        SurfaceBound {
-            centre,
-            radius: ball + error,
-            size: self.size * scale,
-            guard: 2.0 * ball + 2.0 * error * f64::from(MAX_LEVEL + 2 - leaf.level),
-            deviation: self.deviation * scale * scale,
-        }
-    }
-
     /// Of a quad, whose nodes have hypotenuses and diagonals along u and v; those of level 0 have length `length`.
     fn of_square(Slopes { first, second }: Slopes, length: f64) -> Self {
         let half_speed = first[0].max(first[1]) * length / 2.0;
@@ -132,17 +96,6 @@ pub fn of_roots(
                 };
                 RootBound::of_square(larger(below, turned), 2.0)
             }
-        })
-        .collect()
-}
-
-/// Of every mesh edge the larger of both its roots, from those of the faces taken alone.
-pub fn of_both_sides(topology: &Topology, own: Vec<RootBound>) -> Vec<RootBound> {
-    let roots = topology.roots().zip(&own);
-    roots
-        .map(|(root, &bound)| match topology.twin(root.face, root.root) {
-            Some(twin) => bound.max(own[topology.half_edge_index(twin.face, twin.root) as usize]),
-            None => bound,
         })
         .collect()
 }

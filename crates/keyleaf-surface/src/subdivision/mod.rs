@@ -65,8 +65,8 @@ pub use scheme::SubdivisionScheme;
 
 use crate::direction::frame_normal;
 use crate::mesh::unit_or_up;
+use crate::root_bound::RootBound;
 use crate::{ParameterError, SettingError, Surface, SurfaceBound, SurfaceFrame, SurfaceTables, coordinate, diamond};
-use bound::RootBound;
 use cage::Cage;
 use cell::DomainPoint;
 use exact::ExactPoint;
@@ -274,7 +274,7 @@ impl Subdivision {
                 },
             )
         };
-        bound::of_both_sides(topology, (0..topology.face_count()).flat_map(of_face).collect())
+        RootBound::of_both_sides(topology, (0..topology.face_count()).flat_map(of_face).collect())
     }
 
     /// The largest coordinate of a control point of a patch relative to the origin.
@@ -333,7 +333,7 @@ impl Surface for Subdivision {
 
     fn bound(&self, leaf: &Place) -> SurfaceBound {
         let root = &self.bounds[self.topology.half_edge_index(leaf.face, leaf.root) as usize];
-        root.of_leaf(leaf, self.point(diamond::centre(leaf)), self.terminal_error)
+        root.of_leaf(leaf, self.point(diamond::centre(leaf)), 2.0 * self.terminal_error)
     }
 
     fn bounding_box(&self) -> (DVec3, DVec3) {

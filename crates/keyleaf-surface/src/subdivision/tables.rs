@@ -17,11 +17,11 @@
 
 use super::Subdivision;
 use super::addresses::corner_owner;
-use super::bound::RootBound;
 use super::neighbourhoods::Neighbourhoods;
 use super::tree::Node;
 use crate::direction::round_up;
 use crate::mesh::{POSITION_ERROR, vector_entry};
+use crate::root_bound::RootBound;
 use crate::surface::uniform;
 use crate::{Surface, SurfaceTables};
 use encase::ShaderType;

@@ -299,8 +299,10 @@ fn t_joins_and_third_surfaces_are_reported() {
         .collect();
     assert_eq!((t_join.report().exact, free.len()), (1, 10));
     for boundary in [(0, Side::UMax), (1, Side::UMin), (2, Side::UMin)] {
-        assert!(free.contains(&(boundary.0, boundary.1, Unjoined::Free)));
+        assert!(free.contains(&(boundary.0, boundary.1, Unjoined::Apart)));
     }
+    let elsewhere = free.iter().filter(|(.., why)| *why == Unjoined::Free).count();
+    assert_eq!((t_join.report().gaps(), elsewhere), (3, 7));
 
     let mut surfaces = two_squares(0.0);
     surfaces.push(bilinear([

@@ -13,16 +13,31 @@ use keyleaf_baseline::{Method, Quality, deviation};
 use keyleaf_stage::{Loaded, Pipelines};
 use serde_json::json;
 
-/// How the quadtree is refined: by a bound of the distance to the surface, by that distance as sampled, or by length; and from which
-/// threshold to which, in pixels.
-const METRICS: [(&str, fn(f32) -> Metric, [f32; 2]); 3] = [
-    ("deviation", |pixels| Metric::Deviation { pixels }, [1.0 / 32.0, 32.0]),
-    (
-        "distance test",
-        |pixels| Metric::DistanceTest(Threshold::Pixels(pixels)),
-        [1.0 / 32.0, 32.0],
-    ),
-    ("edge", |pixels| Metric::Edge { pixels }, [1.0, 64.0]),
+/// A way to refine the quadtree.
+struct Refined {
+    name: &'static str,
+    metric: fn(f32) -> Metric,
+    /// The finest and the coarsest threshold in pixels.
+    range: [f32; 2],
+}
+
+/// By a bound of the distance to the surface, by that distance as sampled, and by length.
+const METRICS: [Refined; 3] = [
+    Refined {
+        name: "deviation",
+        metric: |pixels| Metric::Deviation { pixels },
+        range: [1.0 / 32.0, 32.0],
+    },
+    Refined {
+        name: "distance test",
+        metric: |pixels| Metric::DistanceTest(Threshold::Pixels(pixels)),
+        range: [1.0 / 32.0, 32.0],
+    },
+    Refined {
+        name: "edge",
+        metric: |pixels| Metric::Edge { pixels },
+        range: [1.0, 64.0],
+    },
 ];
 
 /// Thresholds an octave.
@@ -32,13 +47,8 @@ const STEPS: u32 = 2;
 struct Curve(Vec<[f64; 2]>);
 
 impl Curve {
-    fn of(
-        setup: &Setup<'_>,
-        scene: &Loaded,
-        view: &View,
-        (_, metric, [fine, coarse]): (&str, fn(f32) -> Metric, [f32; 2]),
-        reference: &[u8],
-    ) -> anyhow::Result<Self> {
+    fn of(setup: &Setup<'_>, scene: &Loaded, view: &View, refined: &Refined, reference: &[u8]) -> anyhow::Result<Self> {
+        let (metric, [fine, coarse]) = (refined.metric, refined.range);
         let start = with_settings(scene, |settings| {
             settings.metric = metric(coarse);
             settings.base_grid = 1;
@@ -82,8 +92,8 @@ pub fn table(setup: &Setup<'_>, loaded: &Loaded, view: &View) -> anyhow::Result<
     let quiet = Setup { quiet: true, ..*setup };
     let bar = progress::bar((Quality::ALL.len() * Method::ALL.len()) as u64, "methods", setup.quiet);
     let mut curves = Vec::new();
-    for metric in METRICS {
-        curves.push((metric.0, Curve::of(&quiet, loaded, view, metric, &fine.pixels)?));
+    for refined in &METRICS {
+        curves.push((refined.name, Curve::of(&quiet, loaded, view, refined, &fine.pixels)?));
     }
     let mut pipelines = Pipelines::default();
 

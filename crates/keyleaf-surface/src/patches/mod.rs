@@ -229,19 +229,18 @@ impl Patches {
     pub fn half_edges_of(&self, surface: u32, side: Side) -> Vec<HalfEdge> {
         let layout = &self.layouts[surface as usize];
         let [nu, nv] = [layout.spans[0].len(), layout.spans[1].len()];
-        let (count, place): (usize, fn(usize, [usize; 2]) -> [usize; 2]) = match side {
-            Side::VMin => (nu, |i, _| [i, 0]),
-            Side::UMax => (nv, |i, [nu, _]| [nu - 1, i]),
-            Side::VMax => (nu, |i, [_, nv]| [i, nv - 1]),
-            Side::UMin => (nv, |i, _| [0, i]),
+        let spans = |i: usize| match side {
+            Side::VMin => [i, 0],
+            Side::UMax => [nu - 1, i],
+            Side::VMax => [i, nv - 1],
+            Side::UMin => [0, i],
         };
         let root = side as u32;
-        (0..count)
-            .map(|i| HalfEdge {
-                face: layout.face(place(i, [nu, nv])),
-                root,
-            })
-            .collect()
+        let half_edge = |i| HalfEdge {
+            face: layout.face(spans(i)),
+            root,
+        };
+        (0..[nu, nv][side.along()]).map(half_edge).collect()
     }
 
     fn quad(&self, face: u32) -> KsQuad<'_> {

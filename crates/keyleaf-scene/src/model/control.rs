@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use keyleaf_surface::{BoundaryRule, ControlMesh, Creasing, PolygonMesh};
 
-use crate::error::{ImportError, extension, read_file};
+use crate::error::ImportError;
 use crate::material::SurfaceMaterial;
 use crate::note::Note;
 use crate::weld::weld_control;
@@ -12,7 +12,7 @@ use crate::weld::weld_control;
 use super::covariances::read_covariances;
 use super::obj_tags::{self, Tags};
 use super::sharpness::{add_corners, add_creases};
-use super::{MODEL_EXTENSIONS, ModelFile, decode_polygons, is_model, join};
+use super::{ModelFile, decode_polygons, join, read_bytes};
 
 /// A control mesh, read.
 #[derive(Debug, Clone)]
@@ -71,14 +71,7 @@ pub enum CovarianceSource {
 /// assert!(error.to_string().starts_with("no/such/cage.obj: cannot be read"));
 /// ```
 pub fn read_control_mesh(file: &Path, options: &ControlMeshOptions) -> Result<ControlModel, ImportError> {
-    if !is_model(file) {
-        return Err(ImportError::UnknownExtension {
-            file: file.to_path_buf(),
-            extension: extension(file),
-            expected: MODEL_EXTENSIONS,
-        });
-    }
-    decode(file, &read_file(file)?, options)
+    decode(file, &read_bytes(file)?, options)
 }
 
 /// Reads a control mesh from the bytes of `file`; what it refers to is looked for beside `file`.

@@ -73,6 +73,11 @@ pub fn is_model(file: &Path) -> bool {
 /// assert!(error.to_string().starts_with("no/such/cow.obj: cannot be read"));
 /// ```
 pub fn read_model(file: &Path, options: &ModelOptions) -> Result<Model, ImportError> {
+    decode(file, &read_bytes(file)?, options)
+}
+
+/// The bytes of a file whose name ends as those of models do.
+fn read_bytes(file: &Path) -> Result<Vec<u8>, ImportError> {
     if !is_model(file) {
         return Err(ImportError::UnknownExtension {
             file: file.to_path_buf(),
@@ -80,7 +85,7 @@ pub fn read_model(file: &Path, options: &ModelOptions) -> Result<Model, ImportEr
             expected: MODEL_EXTENSIONS,
         });
     }
-    decode(file, &read_file(file)?, options)
+    read_file(file)
 }
 
 /// Reads a model from the bytes of `file`; what it refers to is looked for beside `file`.

@@ -5,25 +5,27 @@
 // Departures from Concheiro's thesis, chapter 6: parameters are relative to the knot span and to its length, so that knots 1e-6 apart
 // or far from zero lose no digits; positions are sums of differences to one control point, so that corners and poles are exact also
 // with weights; derivatives come from differences of control points.
-// requires: shared/place.wgsl, shared/surface.wgsl, shared/quad_coord.wgsl, shared/diamond.wgsl, shared/direction.wgsl
+// requires: shared/place.wgsl, shared/surface.wgsl, shared/quad_coord.wgsl, shared/diamond.wgsl, shared/direction.wgsl, shared/local_deviation.wgsl
 
 struct PatchParams {
     faces: u32,
     normals: u32,    // entry of table A with the mean normal of face 0
     half_edges: u32, // word of table B with the record of half-edge 0
-    spans: u32,      // word of table B with the first knot span
+    cells: u32,      // words of table B with the first bound of a cell and of an edge, see `local_deviation`
+    edges: u32,
+    depth: u32,      // levels of cells below a face
     margin: f32,     // rounding error of a position, from above
 }
 
 @group(1) @binding(0) var<uniform> surface: PatchParams;
 // Control points relative to the origin, with their weights, surface after surface, u fastest; then a mean normal a face.
 @group(1) @binding(2) var<storage, read> surface_a: array<vec4f>;
-// Four words a face (see `patch_of`), eight words a half-edge, then the knot spans.
+// Four words a face (see `patch_of`), seven words a half-edge, bounds of the deviation, then the knot spans.
 @group(1) @binding(3) var<storage, read> surface_b: array<u32>;
 
 // A half-edge's record: its owner, and whether the edge is one point; the half-edge that starts at the canonical corner of its start;
 // then bounds of the root, see `surface_bound`.
-const HALF_EDGE_WORDS: u32 = 8u;
+const HALF_EDGE_WORDS: u32 = 7u;
 const COLLAPSED: u32 = 0x80000000u;
 
 struct Patch {
@@ -130,8 +132,7 @@ fn surface_bound(leaf: Place) -> SurfaceBound {
     let record = surface.half_edges + HALF_EDGE_WORDS * (4u * leaf.face + leaf.root);
     let size = bitcast<f32>(surface_b[record + 2u]);
     let ball = bitcast<f32>(surface_b[record + 3u]) * ball_scale(leaf.level);
-    let deviation = bitcast<f32>(surface_b[record + 4u]);
-    let scale = level_scale(leaf.level);
-    return SurfaceBound(surface_point(leaf.face, diamond_centre(leaf)), ball + surface.margin, size * scale,
-        2.0 * ball + guard_margin(leaf.level, surface.margin), deviation * scale * scale);
+    let centre = diamond_centre(leaf);
+    return SurfaceBound(surface_point(leaf.face, centre), ball + surface.margin, size * level_scale(leaf.level),
+        2.0 * ball + guard_margin(leaf.level, surface.margin), local_deviation(leaf, centre));
 }

@@ -260,7 +260,7 @@ fn bounds_are_conservative_symmetric_and_nested_in_f32() {
                     fixture.name
                 );
                 assert!(
-                    child.deviation <= leaf.deviation * 0.500001,
+                    child.deviation <= leaf.deviation,
                     "{}: {leaf:?} {child:?}",
                     fixture.name
                 );

@@ -1,7 +1,9 @@
 //! Bounds of the roots of a KSQuad.
 //!
-//! Hypotenuses of nodes run along u or v and are 2^−level long, so that three numbers a root bound all its diamonds: half the speed
-//! for sizes, the same for balls, and second derivatives for the distance to flat triangles.
+//! Hypotenuses of nodes run along u or v and are 2^−level long, so that two numbers a root bound all its diamonds: half the speed
+//! for sizes, the same for balls. Second derivatives, for the distance to flat triangles, are bounded by cells ([`LocalDeviation`]).
+//!
+//! [`LocalDeviation`]: super::local_deviation::LocalDeviation
 
 use super::bezier_net::{BezierNet, DerivativeBounds};
 use super::evaluation::KsQuad;
@@ -17,19 +19,26 @@ const DEPTH_OF_ZERO_WEIGHTS: u32 = 4;
 const UNEVEN: f64 = 4.0;
 
 fn of_derivatives(bounds: DerivativeBounds) -> RootBound {
-    let ([u, v], [uu, uv, vv]) = (bounds.first, bounds.second);
+    let [u, v] = bounds.first;
     // |du| + |dv| is at most half the hypotenuse over a diamond, so that the greater speed bounds its ball as well.
     let half_speed = u.max(v) / 2.0;
     RootBound {
         size: half_speed,
         ball: half_speed,
-        // Of linear interpolation over a triangle in the unit square.
-        deviation: (uu + 2.0 * uv + vv) / 8.0,
+        deviation: 0.0,
     }
 }
 
-/// The bounds of the four roots of a KSQuad, taken alone.
-pub fn of_roots(quad: &KsQuad<'_>) -> [RootBound; 4] {
+/// The bounds of a KSQuad, taken alone.
+pub struct OfQuad {
+    /// Of its four roots, without deviations.
+    pub roots: [RootBound; 4],
+    /// Of second derivatives (uu, uv, vv) over 4^depth cells, row by row.
+    pub second: Vec<[f64; 3]>,
+}
+
+/// The bounds of a KSQuad with 4^`cells` cells.
+pub fn of_quad(quad: &KsQuad<'_>, cells: u32) -> OfQuad {
     let net = BezierNet::of(quad);
     let [least, greatest] = net.weights();
     let depth = if least <= 0.0 {
@@ -38,7 +47,8 @@ pub fn of_roots(quad: &KsQuad<'_>) -> [RootBound; 4] {
         DEPTH_OF_UNEVEN_WEIGHTS
     } else {
         DEPTH
-    };
+    }
+    .max(cells);
     let side = 1u32 << depth;
     let parts: Vec<DerivativeBounds> = net
         .parts(depth)
@@ -52,7 +62,22 @@ pub fn of_roots(quad: &KsQuad<'_>) -> [RootBound; 4] {
             .filter(|&(cell, _)| overlaps(root, cell, side))
             .fold(DerivativeBounds::default(), |bounds, (_, &part)| bounds.max(part))
     };
-    [0, 1, 2, 3].map(|root| of_derivatives(of_root(root)))
+    OfQuad {
+        roots: [0, 1, 2, 3].map(|root| of_derivatives(of_root(root))),
+        second: of_cells(&parts, depth, cells),
+    }
+}
+
+/// Second derivatives over cells that hold 4^(depth − cells) parts each.
+fn of_cells(parts: &[DerivativeBounds], depth: u32, cells: u32) -> Vec<[f64; 3]> {
+    let shift = depth - cells;
+    let mut second = vec![DerivativeBounds::default(); 1 << (2 * cells)];
+    for (k, &part) in parts.iter().enumerate() {
+        let [i, j] = [k % (1 << depth), k >> depth].map(|at| at >> shift);
+        let cell = &mut second[i + (j << cells)];
+        *cell = cell.max(part);
+    }
+    second.into_iter().map(|cell| cell.second).collect()
 }
 
 /// Whether a cell of the grid has a part inside the quarter of the square at edge `root`.

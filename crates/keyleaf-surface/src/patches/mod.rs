@@ -17,7 +17,7 @@
 //! | `boundary`, `join`, `orientation`, `weld` | which boundaries are the same curve |
 //! | `gap` | which lie along each other without being the same |
 //! | `addresses` | one address for every edge, corner and pole |
-//! | `bezier_net`, `bound`, `normal_cone` | bounds |
+//! | `bezier_net`, `bound`, `local_deviation`, `normal_cone` | bounds |
 //! | `tables` | what the GPU reads |
 
 mod addresses;
@@ -31,6 +31,7 @@ mod evaluation;
 mod gap;
 mod join;
 mod layout;
+mod local_deviation;
 mod normal;
 mod normal_cone;
 mod nurbs_surface;
@@ -56,6 +57,7 @@ use glam::DVec3;
 use join::Joined;
 use keyleaf_key::{HalfEdge, Place, RootPoint, Topology};
 use layout::Layout;
+use local_deviation::LocalDeviation;
 use normal_cone::NormalCone;
 use span::Fraction;
 use std::collections::BTreeMap;
@@ -104,7 +106,8 @@ impl Default for PatchSettings {
 /// Where the weights of a corner vanish, so that the surface has no one point there, a point close by stands for it, and bounds are
 /// those that the extent of the control points suggests; elsewhere they are strict.
 ///
-/// GPU memory: 16 bytes a control point, 160 a face, and the floats of spans that differ.
+/// GPU memory: 16 bytes a control point, 1,080 a face (424 where there are more than 4,096 faces, 248 above 65,536), and the floats of
+/// spans that differ.
 ///
 /// ```
 /// use glam::DVec3;
@@ -134,6 +137,7 @@ pub struct Patches {
     normals: Vec<DVec3>,
     /// By half-edge.
     bounds: Vec<RootBound>,
+    deviations: LocalDeviation,
     /// How far the curves of a joined edge are apart.
     mismatch: f64,
     report: JoinReport,
@@ -172,7 +176,14 @@ impl Patches {
         let faces = || 0..topology.face_count();
         let addresses = Addresses::new(&topology, quad_of);
         let normals = faces().map(|face| normal::mean(&quad_of(face))).collect();
-        let bounds: Vec<RootBound> = faces().flat_map(|face| bound::of_roots(&quad_of(face))).collect();
+        let depth = local_deviation::depth_for(topology.face_count());
+        let mut bounds = Vec::new();
+        let second = faces().map(|face| {
+            let bound = bound::of_quad(&quad_of(face), depth);
+            bounds.extend(bound.roots);
+            bound.second
+        });
+        let deviations = LocalDeviation::new(&topology, depth, second);
         let bounds = RootBound::of_both_sides(&topology, bounds);
         let mut patches = Self {
             kind,
@@ -184,6 +195,7 @@ impl Patches {
             addresses,
             normals,
             bounds,
+            deviations,
             mismatch,
             report,
             cones: OnceLock::new(),
@@ -326,7 +338,10 @@ impl Surface for Patches {
 
     fn bound(&self, leaf: &Place) -> SurfaceBound {
         let bound = self.bounds[self.topology.half_edge_index(leaf.face, leaf.root) as usize];
-        bound.of_leaf(leaf, self.point(diamond::centre(leaf)), self.mismatch)
+        SurfaceBound {
+            deviation: self.deviations.of(&self.topology, leaf),
+            ..bound.of_leaf(leaf, self.point(diamond::centre(leaf)), self.mismatch)
+        }
     }
 
     fn bounding_box(&self) -> (DVec3, DVec3) {

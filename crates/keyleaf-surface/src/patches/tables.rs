@@ -7,21 +7,22 @@
 //! - a face: the entry of its first control point in `surface_a`; the number of control points a row, with the degrees in u and v in
 //!   bits 24 and 28; the words at which the floats of its spans in u and v start;
 //! - a half-edge (4 · face + root): the half-edge that owns the edge, with bit 31 where the edge is a point; the half-edge that owns the
-//!   corner at its start, one for a whole pole; bits of three bounds (size, ball, deviation); three words of the face's normal cone: at
-//!   root 0 its axis, at root 1 cosine and sine of its angle (all 0 where there is none), else zeros;
+//!   corner at its start, one for a whole pole; bits of two bounds (size, ball); three words of the face's normal cone: at root 0 its
+//!   axis, at root 1 cosine and sine of its angle (all 0 where there is none), else zeros;
+//! - the floats of [`LocalDeviation`]: cells, then edges;
 //!   In power form there are no spans: instead of the first of them a face has the entry in `surface_a` of its reference point, which its
 //!   coefficients follow, u fastest; they stand behind the normals;
 //! - spans, each a list of floats: `left[2..=p]`, then `right[2..=p]`; for extraction instead the matrix, row by row, a row a function.
 //!   Equal lists are stored once.
 
 use super::basis::{BasisMethod, extraction_matrix};
+use super::local_deviation::LocalDeviation;
 use super::normal_cone::NormalCone;
 use super::power_form::PowerForm;
 use super::span::Span;
 use super::{PatchKind, Patches};
 use crate::direction::round_up;
 use crate::mesh::vector_entry;
-use crate::root_bound::RootBound;
 use crate::surface::uniform;
 use crate::{Surface, SurfaceTables};
 use encase::ShaderType;
@@ -32,7 +33,7 @@ use std::collections::HashMap;
 const COLLAPSED: u32 = 1 << 31;
 
 const WORDS_OF_FACE: usize = 4;
-const WORDS_OF_HALF_EDGE: usize = 8;
+const WORDS_OF_HALF_EDGE: usize = 7;
 
 /// 2⁻²⁴: half a unit in the last place of an f32 in 1..2.
 const F32_ROUNDING: f64 = 1.0 / 16_777_216.0;
@@ -45,8 +46,12 @@ struct PatchParams {
     normals: u32,
     /// The word of `surface_b` of the first half-edge.
     half_edges: u32,
-    /// The word of `surface_b` of the first span.
-    spans: u32,
+    /// The word of `surface_b` of the first cell.
+    cells: u32,
+    /// The word of `surface_b` of the first interval of an edge.
+    edges: u32,
+    /// The levels of cells below a face.
+    depth: u32,
     /// The rounding error of a position, from above.
     margin: f32,
 }
@@ -92,7 +97,9 @@ impl SpanTable {
 pub fn tables(patches: &Patches, origin: DVec3) -> SurfaceTables {
     let faces = patches.topology.face_count();
     let half_edges = WORDS_OF_FACE * faces as usize;
-    let first_span = half_edges + WORDS_OF_HALF_EDGE * patches.topology.half_edge_count() as usize;
+    let cells = half_edges + WORDS_OF_HALF_EDGE * patches.topology.half_edge_count() as usize;
+    let edges = cells + patches.deviations.cells().count();
+    let first_span = edges + patches.deviations.edges().len();
     let mut spans = SpanTable {
         words: Vec::new(),
         known: HashMap::new(),
@@ -100,6 +107,7 @@ pub fn tables(patches: &Patches, origin: DVec3) -> SurfaceTables {
     };
     let mut b = face_words(patches, &mut spans);
     b.extend(half_edge_words(patches));
+    b.extend(deviation_words(&patches.deviations));
     b.extend(spans.words);
 
     let normals: usize = patches.surfaces.iter().map(|surface| surface.points().len()).sum();
@@ -116,7 +124,9 @@ pub fn tables(patches: &Patches, origin: DVec3) -> SurfaceTables {
         faces,
         normals: normals as u32,
         half_edges: half_edges as u32,
-        spans: first_span as u32,
+        cells: cells as u32,
+        edges: edges as u32,
+        depth: patches.deviations.depth(),
         margin: round_up(margin(patches, origin)),
     };
     SurfaceTables {
@@ -176,19 +186,22 @@ fn half_edge_words(patches: &Patches) -> impl Iterator<Item = u32> {
         let owner = topology.half_edge_owner(root.face, root.root);
         let corner = patches.addresses.corners[own];
         let flag = if patches.addresses.collapsed[own] { COLLAPSED } else { 0 };
-        let RootBound { size, ball, deviation } = *bound;
-        let [size, ball, deviation] = [size, ball, deviation].map(|bound| round_up(bound).to_bits());
+        let [size, ball] = [bound.size, bound.ball].map(|bound| round_up(bound).to_bits());
         [
             topology.half_edge_index(owner.face, owner.root) | flag,
             topology.half_edge_index(corner.face, corner.root),
             size,
             ball,
-            deviation,
             x,
             y,
             z,
         ]
     })
+}
+
+fn deviation_words(deviations: &LocalDeviation) -> impl Iterator<Item = u32> {
+    let bounds = deviations.cells().chain(deviations.edges().iter().copied());
+    bounds.map(|bound| round_up(bound).to_bits())
 }
 
 /// The part of a face's normal cone that the record of a root holds.

@@ -10,7 +10,9 @@ struct Params {
     faces: u32,
     normals: u32,
     half_edges: u32,
-    spans: u32,
+    cells: u32,
+    edges: u32,
+    depth: u32,
     margin: f32,
 }
 
@@ -20,8 +22,10 @@ fn params(tables: &SurfaceTables) -> Params {
         faces: word(0),
         normals: word(1),
         half_edges: word(2),
-        spans: word(3),
-        margin: f32::from_bits(word(4)),
+        cells: word(3),
+        edges: word(4),
+        depth: word(5),
+        margin: f32::from_bits(word(6)),
     }
 }
 
@@ -126,12 +130,13 @@ fn half_edges_name_their_owners_and_bounds_are_rounded_up() {
         let params = params(&tables);
         let topology = model.topology();
         assert_eq!(params.half_edges, 4 * params.faces);
-        assert_eq!(params.spans, params.half_edges + 8 * topology.half_edge_count());
+        assert_eq!(params.cells, params.half_edges + 7 * topology.half_edge_count());
+        assert_eq!((params.depth, params.edges), (3, params.cells + 2 * 85 * params.faces));
         assert_eq!(tables.a.len() as u32, 4 * (params.normals + params.faces));
         for normal in tables.a[4 * params.normals as usize..].chunks(4) {
             assert!((DVec3::new(normal[0].into(), normal[1].into(), normal[2].into()).length() - 1.0).abs() < 1e-6);
         }
-        let record = |half_edge: u32| &tables.b[(params.half_edges + 8 * half_edge) as usize..][..8];
+        let record = |half_edge: u32| &tables.b[(params.half_edges + 7 * half_edge) as usize..][..7];
         let place = |half_edge: u32| Place::of_root(half_edge / 4, half_edge % 4);
         let corner = |half_edge: u32, end: bool| {
             let Place { face, root, .. } = place(half_edge);
@@ -155,9 +160,9 @@ fn half_edges_name_their_owners_and_bounds_are_rounded_up() {
                 assert_eq!((ends[0], words[1]), (ends[1], record(next)[1]));
             }
             let bound = model.bound(&root);
-            let [size, ball, deviation] = [2, 3, 4].map(|k| f64::from(f32::from_bits(words[k])));
-            assert!(size >= bound.size && ball * 2.0 >= bound.guard && deviation >= bound.deviation);
-            assert!(size <= bound.size * (1.0 + 1e-6) && (root.root < 2 || words[5..] == [0; 3]));
+            let [size, ball] = [2, 3].map(|k| f64::from(f32::from_bits(words[k])));
+            assert!(size >= bound.size && ball * 2.0 >= bound.guard);
+            assert!(size <= bound.size * (1.0 + 1e-6) && (root.root < 2 || words[4..] == [0; 3]));
         }
     }
 }
@@ -173,7 +178,7 @@ fn normal_cones_hold_all_normals() {
         let tables = model.tables(DVec3::ZERO);
         let params = params(&tables);
         for face in 0..params.faces {
-            let record = |root: u32| &tables.b[(params.half_edges + 8 * (4 * face + root)) as usize..][5..8];
+            let record = |root: u32| &tables.b[(params.half_edges + 7 * (4 * face + root)) as usize..][4..7];
             let floats = |words: &[u32]| [0, 1, 2].map(|k| f64::from(f32::from_bits(words[k])));
             let axis = DVec3::from_array(floats(record(0)));
             let [cosine, sine, _] = floats(record(1));
@@ -206,7 +211,8 @@ fn equal_spans_are_stored_once_and_the_shader_follows_the_method() {
     let torus = model(vec![torus()]);
     let tables = torus.tables(DVec3::ZERO);
     // All spans are those of Bézier patches of degree 2: one left, one right, both zero.
-    assert_eq!(tables.b.len() as u32 - params(&tables).spans, 2);
+    let params = params(&tables);
+    assert_eq!(tables.b.len() as u32, params.edges + 4 * 15 * params.faces + 2);
     let shaders: Vec<_> = all_models().iter().map(|(_, model)| model.shader()).collect();
     let expected = ["nurbs", "nurbs_stair", "nurbs_de_boor", "nurbs_extraction", "bezier"];
     assert_eq!(shaders, expected.map(|name| format!("surfaces/{name}.wgsl")));

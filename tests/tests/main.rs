@@ -9,6 +9,7 @@
 //! | [`history`], [`starvation`], [`scaling`] | where it settles |
 //! | [`leaf_table`] | how long look-ups are |
 //! | [`culling`], [`watertight`], [`closed_parts`] | what is drawn |
+//! | [`posing`] | what moves |
 //! | [`hard_cases`], [`precision`], [`large`] | where numbers get very large, small or many |
 
 mod gpu;
@@ -28,6 +29,7 @@ mod large;
 mod layouts;
 mod leaf_table;
 mod metrics;
+mod posing;
 mod precision;
 mod scaling;
 mod shaders;

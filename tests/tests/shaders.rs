@@ -25,6 +25,7 @@ pub fn kinds() -> Vec<Kind> {
                 metric,
                 balance,
                 back_faces: BackFaces::Drawn,
+                pose: None,
             }));
         }
         kinds.extend(
@@ -34,10 +35,23 @@ pub fn kinds() -> Vec<Kind> {
                     metric: "metrics/edge.wgsl",
                     balance: Balance::Table,
                     back_faces,
+                    pose: None,
                 })
                 .into_iter()
                 .filter(|kind| kind.validate().is_ok()),
         );
+    }
+    for (surface, pose) in [
+        ("surfaces/catmull_clark.wgsl", "shared/pose_square.wgsl"),
+        ("surfaces/loop.wgsl", "shared/pose_triangle.wgsl"),
+    ] {
+        kinds.push(Kind {
+            surface,
+            metric: "metrics/edge.wgsl",
+            balance: Balance::Table,
+            back_faces: BackFaces::Drawn,
+            pose: Some(pose),
+        });
     }
     kinds
 }

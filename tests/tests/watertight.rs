@@ -66,7 +66,7 @@ fn bits(position: [f32; 3]) -> [u32; 3] {
 }
 
 /// One bit pattern a site; finite; unit normals; each directed edge once, and its reverse once but on boundaries.
-fn check(topology: &Topology, drawn: &Drawn, case: &str) {
+pub fn check(topology: &Topology, drawn: &Drawn, case: &str) {
     let mut position_of: HashMap<Site, [u32; 3]> = HashMap::new();
     for (site, at, position, normal) in &drawn.vertices {
         assert!(

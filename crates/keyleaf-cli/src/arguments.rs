@@ -88,6 +88,9 @@ pub struct ViewArguments {
     /// Vertical angle of view in degrees [default: 50]
     #[arg(long, value_name = "DEGREES", requires = "eye", value_parser = parse_fov)]
     pub fov: Option<f64>,
+    /// Seconds at which surfaces that move are shown
+    #[arg(long, value_name = "SECONDS", value_parser = parse_time, default_value = "0")]
+    pub time: f64,
     /// Size of the picture in pixels
     #[arg(long, value_name = "WxH", value_parser = parse_size, default_value = "1280x720")]
     pub size: UVec2,
@@ -252,6 +255,16 @@ pub fn parse_seconds(text: &str) -> anyhow::Result<f64> {
     ensure!(
         seconds > 0.0 && seconds.is_finite(),
         "expected a number of seconds above 0"
+    );
+    Ok(seconds)
+}
+
+/// A number of seconds from 0.
+pub fn parse_time(text: &str) -> anyhow::Result<f64> {
+    let seconds: f64 = text.parse().context("expected a number of seconds")?;
+    ensure!(
+        seconds >= 0.0 && seconds.is_finite(),
+        "expected a number of seconds from 0"
     );
     Ok(seconds)
 }

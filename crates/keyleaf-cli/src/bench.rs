@@ -205,12 +205,14 @@ fn fly(
     );
     for _ in 0..arguments.warm_up {
         for run in &mut runs {
-            timing::frame(gpu, &mut run.stage, canvas.as_ref(), &views[0], run.timer.as_ref())?;
+            run.stage.set_time(views[0].0)?;
+            timing::frame(gpu, &mut run.stage, canvas.as_ref(), &views[0].1, run.timer.as_ref())?;
         }
         bar.inc(1);
     }
-    for view in &views {
+    for (time, view) in &views {
         for run in &mut runs {
+            run.stage.set_time(*time)?;
             run.frames.push(timing::frame(
                 gpu,
                 &mut run.stage,
@@ -241,8 +243,8 @@ fn fly(
     Ok(report)
 }
 
-/// The views at a fixed step.
-fn views(path: &CameraPath, arguments: &Arguments) -> anyhow::Result<Vec<View>> {
+/// The views at a fixed step, with the times on the path.
+fn views(path: &CameraPath, arguments: &Arguments) -> anyhow::Result<Vec<(f64, View)>> {
     let from = arguments.from.unwrap_or(path.start()) - path.start();
     let duration = path.duration();
     ensure!(
@@ -258,8 +260,8 @@ fn views(path: &CameraPath, arguments: &Arguments) -> anyhow::Result<Vec<View>> 
         let time = (from + f64::from(frame) * step).rem_euclid(2.0 * turn);
         path.start() + if time > turn { 2.0 * turn - time } else { time }
     };
-    let view = |frame| Some(view_of(&path.view_at(time(frame))?, arguments.size));
-    let views: Option<Vec<View>> = (0..arguments.frames).map(view).collect();
+    let view = |frame| Some((time(frame), view_of(&path.view_at(time(frame))?, arguments.size)));
+    let views: Option<Vec<_>> = (0..arguments.frames).map(view).collect();
     views.with_context(|| format!("the camera path '{}' has no keys", path.name))
 }
 

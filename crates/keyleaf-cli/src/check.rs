@@ -126,6 +126,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
     };
     let bar = progress::bar(frames.len() as u64, &format!("checking {}", path.name), quiet);
     for (frame, (time, view)) in frames.iter().enumerate() {
+        stage.set_time(*time)?;
         let statistics = session::update(&gpu, &mut stage, view)?;
         flight.leaves = flight.leaves.max(statistics.leaves);
         if statistics.starved > 0 {

@@ -1,6 +1,6 @@
 //! `keyleaf eval`: the surface at given parameters.
 
-use crate::arguments::{Overrides, ReadingArguments, load_scene};
+use crate::arguments::{Overrides, ReadingArguments, load_scene, parse_time};
 use crate::csv::{Csv, Row};
 use crate::output::{self, thousands};
 use crate::{Outcome, session};
@@ -51,6 +51,9 @@ pub struct Arguments {
     /// The surface of the scene, for rows without a column `object` [default: the only one]
     #[arg(long, value_name = "NAME")]
     object: Option<String>,
+    /// Seconds at which surfaces that move are taken
+    #[arg(long, value_name = "SECONDS", value_parser = parse_time, default_value = "0")]
+    time: f64,
 }
 
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq)]
@@ -66,7 +69,8 @@ const APPENDED: &str = "x,y,z,du_x,du_y,du_z,dv_x,dv_y,dv_z,n_x,n_y,n_z";
 /// Runs the command.
 pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
     output::ensure_writable(&arguments.output)?;
-    let loaded = load_scene(&arguments.scene, &arguments.reading, &Overrides::default(), quiet)?;
+    let mut loaded = load_scene(&arguments.scene, &arguments.reading, &Overrides::default(), quiet)?;
+    loaded.pose(arguments.time)?;
     let csv = Csv::read(&arguments.at)?;
     let points = points(&csv, &loaded, arguments)?;
     let mut lines: Vec<Option<String>> = vec![None; points.len()];

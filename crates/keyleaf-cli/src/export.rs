@@ -80,6 +80,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
     );
     output::ensure_writable(&arguments.output)?;
     let mut loaded = arguments.scene.load(quiet)?;
+    loaded.pose(arguments.view.time)?;
     if let Some(level) = arguments.uniform {
         make_room(&mut loaded, level)?;
     }

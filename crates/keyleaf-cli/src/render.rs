@@ -99,7 +99,8 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
         "--wireframe and --level-tint need the channel color"
     );
     output::ensure_writable(&arguments.output)?;
-    let loaded = arguments.scene.load(quiet)?;
+    let mut loaded = arguments.scene.load(quiet)?;
+    loaded.pose(arguments.view.time)?;
     let (camera, view) = arguments.view.view(&loaded)?;
 
     let gpu = session::device()?;

@@ -17,8 +17,8 @@ use crate::model::{ControlMeshOptions, CovarianceSource, read_control_mesh};
 use crate::motion::CageMotion;
 use crate::note::Note;
 use crate::scene::{
-    Covariances, GaussianScheme, GaussianShape, LoopShape, Motion, NormalCovariances, QasShape, QasVariant, Shape,
-    Sharpness, SubdivisionShape, SurfaceEntry, Track,
+    Covariances, GaussianScheme, GaussianShape, Motion, NormalCovariances, QasShape, QasVariant, Shape, Sharpness,
+    SurfaceEntry, Track,
 };
 use crate::surfaces::{Failure, Made};
 
@@ -31,6 +31,23 @@ pub struct ControlCage {
     pub covariances: Option<Vec<[f64; 6]>>,
     /// How it moves, if it does.
     pub motion: Option<CageMotion>,
+    /// What its surface is.
+    shape: Shape,
+    /// The surface at rest, if all poses can be made of it.
+    at_rest: Option<Arc<Subdivision>>,
+}
+
+/// How many poses of a motion the bounds of what does not change with the pose are taken from.
+const POSES: u32 = 32;
+
+/// A pose that has no surface.
+#[derive(Debug, thiserror::Error)]
+#[error("the control mesh has no surface at {time} s: {reason}")]
+pub struct PoseError {
+    /// Seconds.
+    pub time: f64,
+    /// Why not.
+    pub reason: String,
 }
 
 impl ControlCage {
@@ -40,6 +57,38 @@ impl ControlCage {
             Some(motion) => motion.pose(time),
             None => self.control.mesh.positions.clone(),
         }
+    }
+
+    /// The surface at a time in seconds. Keeps faces, patches and shader.
+    ///
+    /// # Errors
+    /// [`PoseError`] if vertices or covariances of the pose make up none.
+    pub fn surface_at(&self, time: f64) -> Result<Arc<dyn Surface>, PoseError> {
+        if let Some(posed) = self.at_rest.as_ref().and_then(|rest| rest.posed(&self.pose(time))) {
+            return Ok(Arc::new(posed));
+        }
+        surface(self, time).map_err(|failure| PoseError {
+            time,
+            reason: failure.source.to_string(),
+        })
+    }
+
+    /// Lets the surface at rest allow for all poses, and returns it as it is at time 0; `None` if it is no subdivision surface.
+    fn keep_at_rest(&mut self) -> Result<Option<Arc<dyn Surface>>, Failure> {
+        let mut control = self.control.clone();
+        control.mesh.positions = self.pose(0.0);
+        let Some(mut rest) = subdivision(&control, &self.shape)? else {
+            return Ok(None);
+        };
+        if let Some(motion) = &self.motion {
+            let step = motion.duration() / f64::from(POSES);
+            let poses = (0..POSES).map(|pose| motion.pose(f64::from(pose) * step));
+            let posed: Vec<Subdivision> = poses.filter_map(|positions| rest.posed(&positions)).collect();
+            rest.allow_for(&posed);
+        }
+        let rest = Arc::new(rest);
+        self.at_rest = Some(Arc::clone(&rest));
+        Ok(Some(rest))
     }
 
     /// The covariances of its vertices at a time, if they have any.
@@ -72,12 +121,17 @@ pub(crate) fn make(folder: &Path, file: &Path, entry: &SurfaceEntry, notes: &mut
         Shape::GaussianProduct(shape) => Some(covariances(file, &control, read.covariances, shape, notes)?),
         _ => None,
     };
-    let cage = ControlCage {
+    let mut cage = ControlCage {
         control,
         covariances,
         motion,
+        shape: entry.surface.clone(),
+        at_rest: None,
     };
-    let surface = surface(&cage, &entry.surface)?;
+    let surface = match cage.keep_at_rest()? {
+        Some(surface) => surface,
+        None => surface(&cage, 0.0)?,
+    };
     let corners = corner_attributes(&cage.control, surface.as_ref());
     Ok(Made {
         corners,
@@ -215,39 +269,40 @@ fn covariances(
     Ok(numbers.collect())
 }
 
-/// The surface of a control mesh as it is at time 0.
-fn surface(cage: &ControlCage, shape: &Shape) -> Result<Arc<dyn Surface>, Failure> {
+/// The surface of a control mesh as it is at a time.
+fn surface(cage: &ControlCage, time: f64) -> Result<Arc<dyn Surface>, Failure> {
     let mut control = cage.control.clone();
-    control.mesh.positions = cage.pose(0.0);
-    match shape {
-        Shape::CatmullClark(shape) => catmull_clark(&control, shape),
-        Shape::Loop(shape) => loop_surface(&control, shape),
+    control.mesh.positions = cage.pose(time);
+    match &cage.shape {
         Shape::Qas(shape) => qas(&control, shape),
         Shape::PnTriangles => pn_triangles(&control),
         Shape::GaussianProduct(shape) => {
-            let covariances = cage.pose_covariances(0.0).unwrap_or_default();
+            let covariances = cage.pose_covariances(time).unwrap_or_default();
             gaussian_product(&control, &covariances, shape)
         }
-        Shape::Flat | Shape::Displaced(_) => Err(not_yet(shape.name())),
+        shape => match subdivision(&control, shape)? {
+            Some(surface) => Ok(Arc::new(surface)),
+            None => Err(not_yet(shape.name())),
+        },
     }
 }
 
-fn catmull_clark(control: &ControlMesh, shape: &SubdivisionShape) -> Result<Arc<dyn Surface>, Failure> {
-    subdivide(control, SubdivisionScheme::CatmullClark, shape.isolation)
-}
-
-fn loop_surface(control: &ControlMesh, shape: &LoopShape) -> Result<Arc<dyn Surface>, Failure> {
-    let weights = match shape.weights {
-        crate::scene::LoopWeights::Loop => LoopWeights::Loop,
-        crate::scene::LoopWeights::Warren => LoopWeights::Warren,
+/// The limit surface, if the shape is one.
+fn subdivision(control: &ControlMesh, shape: &Shape) -> Result<Option<Subdivision>, Failure> {
+    let (scheme, isolation) = match shape {
+        Shape::CatmullClark(shape) => (SubdivisionScheme::CatmullClark, shape.isolation),
+        Shape::Loop(shape) => {
+            let weights = match shape.weights {
+                crate::scene::LoopWeights::Loop => LoopWeights::Loop,
+                crate::scene::LoopWeights::Warren => LoopWeights::Warren,
+            };
+            (SubdivisionScheme::Loop(weights), shape.isolation)
+        }
+        _ => return Ok(None),
     };
-    subdivide(control, SubdivisionScheme::Loop(weights), shape.isolation)
-}
-
-fn subdivide(control: &ControlMesh, scheme: SubdivisionScheme, isolation: u32) -> Result<Arc<dyn Surface>, Failure> {
     let settings = SubdivisionSettings { scheme, isolation };
     let surface = Subdivision::new(control, settings).map_err(Failure::of("surface"))?;
-    Ok(Arc::new(surface))
+    Ok(Some(surface))
 }
 
 fn qas(control: &ControlMesh, shape: &QasShape) -> Result<Arc<dyn Surface>, Failure> {

@@ -41,6 +41,7 @@ pub mod view;
 mod wavefront;
 mod weld;
 
+pub use control_surfaces::{ControlCage, PoseError};
 pub use export::{ExportError, ExportMesh, write_mesh, write_whole};
 pub use heightmap::{HeightMapFile, HeightMapOptions, read_height_map};
 pub use model::{
@@ -48,7 +49,7 @@ pub use model::{
     read_model,
 };
 pub use motion::CageMotion;
-pub use open::{ControlCage, OpenError, OpenOptions, OpenedScene, OpenedSurface, load_scene, open};
+pub use open::{OpenError, OpenOptions, OpenedScene, OpenedSurface, load_scene, open};
 pub use patch::{PatchFileOptions, PatchModel, read_patches};
 pub use path::Frame;
 pub use scene::{Scene, SceneError, ShapeName};

@@ -7,7 +7,7 @@ use glam::{DMat4, DVec3};
 use keyleaf_surface::{CornerAttributes, Surface};
 use thiserror::Error;
 
-pub use crate::control_surfaces::ControlCage;
+use crate::control_surfaces::ControlCage;
 use crate::error::{FilePlace, ImportError, extension};
 use crate::heightmap::is_height_map;
 use crate::material::SurfaceMaterial;

@@ -6,7 +6,7 @@ use keyleaf::draw::{ColourTexture, Look};
 use keyleaf::shading::{Material, Shading};
 use keyleaf::{BackFaces, Metric, Projection, Settings, Threshold, View};
 use keyleaf_scene::scene::{CameraPath, Colouring, Culling, Effect, NamedCamera};
-use keyleaf_scene::{OpenError, OpenOptions, OpenedSurface, Scene};
+use keyleaf_scene::{ControlCage, OpenError, OpenOptions, OpenedSurface, PoseError, Scene};
 use keyleaf_surface::Surface;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -27,6 +27,14 @@ pub enum LoadError {
         name: String,
         /// The names there are.
         known: String,
+    },
+    /// A pose of a moving surface that cannot be.
+    #[error("surface {name}: {source}")]
+    Pose {
+        /// The surface.
+        name: String,
+        /// What is wrong.
+        source: PoseError,
     },
     /// There is no path of that name.
     #[error("no camera path {name:?} in this scene; there are: {known}")]
@@ -57,8 +65,10 @@ pub struct Loaded {
 pub struct LoadedObject {
     /// Its name in the scene.
     pub name: String,
-    /// The evaluator.
+    /// The evaluator; of a moving control mesh as it is at time 0.
     pub surface: Arc<dyn Surface>,
+    /// The control mesh, if it moves.
+    pub cage: Option<Arc<ControlCage>>,
     /// Where it stands.
     pub world_from_object: DAffine3,
     /// What the scene says of its refinement.
@@ -137,13 +147,18 @@ fn object(opened: OpenedSurface) -> LoadedObject {
     });
     let uses_corners = matches!(material, Material::Texture | Material::Attributes | Material::Matcap);
     let [red, green, blue, _] = opened.material.base_colour;
+    let cage = opened.cage.filter(|cage| cage.motion.is_some());
     LoadedObject {
         look: look_of(
             opened.surface.topology(),
             uses_corners.then_some(&opened.corners),
             texture,
         ),
-        settings: settings(&opened.settings),
+        settings: Settings {
+            moving: cage.is_some(),
+            ..settings(&opened.settings)
+        },
+        cage,
         name: opened.name,
         surface: opened.surface,
         world_from_object: DAffine3::from_mat4(opened.world_from_object),
@@ -239,6 +254,23 @@ impl Loaded {
                 name: name.unwrap_or_default().to_owned(),
                 known: names(all.iter().map(|p| p.name.as_str())),
             })
+    }
+
+    /// Puts moving surfaces where they are at a time in seconds.
+    ///
+    /// # Errors
+    /// [`LoadError::Pose`] if the pose of one has no surface.
+    pub fn pose(&mut self, time: f64) -> Result<(), LoadError> {
+        for object in &mut self.objects {
+            if let Some(cage) = &object.cage {
+                let posed = cage.surface_at(time);
+                object.surface = posed.map_err(|source| LoadError::Pose {
+                    name: object.name.clone(),
+                    source,
+                })?;
+            }
+        }
+        Ok(())
     }
 
     /// The view of a camera by its name, or of the first one.

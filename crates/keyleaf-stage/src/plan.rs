@@ -148,6 +148,10 @@ fn surface(
     add("surface parameters", tables.params.len());
     add("surface A", 4 * tables.a.len());
     add("surface B", 4 * tables.b.len());
+    if let Some(pose) = object.surface.pose_tables().filter(|_| kind.pose.is_some()) {
+        let words = pose.words.len() + pose.rows.len() + pose.scratch + 4 * pose.vertices;
+        add("pose", pose.params.len() + 4 * words);
+    }
     for (name, data) in [("heights", &tables.heights), ("height bounds", &tables.height_bounds)] {
         add(
             name,

@@ -1,6 +1,6 @@
 //! The quadtrees of a scene with what draws them.
 
-use crate::Loaded;
+use crate::{LoadError, Loaded};
 use glam::{DVec3, Vec3};
 use keyleaf::draw::{ColourTexture, LeafDraw, LeafPipeline, Look, Sky, Target};
 use keyleaf::headless::Headless;
@@ -8,6 +8,7 @@ use keyleaf::shading::{Atmosphere, Channel, Material, Overlay, Shading};
 use keyleaf::{KeyleafError, Kind, Passes, Phase, Quadtree, Statistics, View};
 use keyleaf_key::Topology;
 use keyleaf_scene::scene::Effect;
+use keyleaf_scene::{ControlCage, PoseError};
 use keyleaf_surface::CornerAttributes;
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -88,6 +89,8 @@ pub struct StageObject {
     pipeline: Arc<LeafPipeline>,
     draw: LeafDraw,
     shading: Shading,
+    /// The control mesh, if it moves.
+    cage: Option<Arc<ControlCage>>,
 }
 
 /// The pipelines that were compiled so far, for one target. Scenes that follow each other on a device can share them.
@@ -184,6 +187,7 @@ impl Stage {
                 pipeline,
                 draw,
                 shading: object.shading(light),
+                cage: object.cage.clone(),
             });
         }
         let sky = if effects.sky {
@@ -216,6 +220,29 @@ impl Stage {
     /// The channel.
     pub fn show(&self) -> Show {
         self.show
+    }
+
+    /// Puts moving surfaces where they are at a time in seconds; the next update follows. Subdivision surfaces are posed on the GPU, the
+    /// others have their tables made anew.
+    ///
+    /// # Errors
+    /// [`LoadError::Pose`] if the pose of one has no surface.
+    pub fn set_time(&mut self, time: f64) -> Result<(), LoadError> {
+        for object in &mut self.objects {
+            let Some(cage) = &object.cage else { continue };
+            let no_pose = |reason: String| LoadError::Pose {
+                name: object.name.clone(),
+                source: PoseError { time, reason },
+            };
+            let posed = if object.quadtree.is_posed_on_gpu() {
+                object.quadtree.set_cage(cage.pose(time))
+            } else {
+                let surface = cage.surface_at(time).map_err(|error| no_pose(error.reason))?;
+                object.quadtree.set_surface(&self.queue, surface)
+            };
+            posed.map_err(|error| no_pose(error.to_string()))?;
+        }
+        Ok(())
     }
 
     /// Records the passes that refine every surface for a view.

@@ -75,5 +75,5 @@ pub use subdivision::{
     BoundaryRule, ControlMesh, Corner, Crease, Creasing, INFINITE_SHARPNESS, Subdivision, SubdivisionError,
     SubdivisionScheme, SubdivisionSettings,
 };
-pub use surface::{OwnCoord, Surface, SurfaceBound, SurfaceFrame, SurfaceTables, TextureData};
+pub use surface::{OwnCoord, PoseTables, Surface, SurfaceBound, SurfaceFrame, SurfaceTables, TextureData};
 pub use terrain::{Terrain, TerrainSettings};

@@ -41,6 +41,16 @@ pub trait Surface: Send + Sync {
     /// What the GPU reads, for positions relative to `origin` (object space).
     fn tables(&self, origin: DVec3) -> SurfaceTables;
 
+    /// The WGSL file by which the GPU poses the surface when its control mesh moves; none where the tables are made anew for each pose.
+    fn pose_shader(&self) -> Option<&'static str> {
+        None
+    }
+
+    /// What it reads besides for that.
+    fn pose_tables(&self) -> Option<PoseTables> {
+        None
+    }
+
     /// The point with face-local parameters (u, v), to the nearest multiple of 2⁻³¹.
     ///
     /// Quads: the unit square with corners 0..3 at (0, 0), (1, 0), (1, 1), (0, 1). Triangles: corners (0, 0), (1, 0), (0, 1).
@@ -142,6 +152,21 @@ pub struct SurfaceTables {
     pub heights: Option<Arc<TextureData>>,
     /// The texture `height_bounds`, RGBA32Float with mip levels. Shared likewise.
     pub height_bounds: Option<Arc<TextureData>>,
+}
+
+/// What the pass `pose` reads of a surface whose control points are weighted sums of the vertices of a control mesh.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PoseTables {
+    /// The uniform `pose`.
+    pub params: Vec<u8>,
+    /// The storage buffer `pose_words`.
+    pub words: Vec<u32>,
+    /// The storage buffer `pose_rows`: weights.
+    pub rows: Vec<f32>,
+    /// Floats of the storage buffer `scratch`.
+    pub scratch: usize,
+    /// Vertices of the control mesh.
+    pub vertices: usize,
 }
 
 /// The texels of a two-dimensional texture of 32-bit floats.

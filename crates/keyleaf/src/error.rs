@@ -44,6 +44,9 @@ pub enum KeyleafError {
     /// A set of leaves given from outside is not a partition of the roots, or breaks the balance.
     #[error("these leaves are not a balanced quadtree: {0}")]
     Leaves(String),
+    /// A moving surface was given what does not fit it.
+    #[error("the surface cannot be posed so: {0}")]
+    Cage(String),
     /// A texture of a surface is larger than the device allows.
     #[error(
         "a texture of {width}x{height} samples is larger than the {limit} that this device allows a side: scale it down or cut it"

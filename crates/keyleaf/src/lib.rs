@@ -59,6 +59,7 @@ pub mod headless;
 pub mod inspect;
 pub mod layout;
 mod passes;
+mod posing;
 mod quadtree;
 pub mod read_back;
 mod settings;

@@ -19,6 +19,8 @@ pub struct Kind {
     pub balance: Balance,
     /// What is done with triangles that are seen from behind.
     pub back_faces: BackFaces,
+    /// WGSL file by which a moving surface is posed.
+    pub pose: Option<&'static str>,
 }
 
 impl Kind {
@@ -66,6 +68,7 @@ pub fn modules(kind: &Kind) -> Vec<Module> {
     };
     const UPDATE: &[Binding] = &[Uniform, Read, Read, Write, Write, Write];
     const UPDATE_CULLED: &[Binding] = &[Uniform, Read, Read, Write, Write, Write, Read, Read];
+    const POSE: &[Binding] = &[Uniform, Read, Read, Read, Write, Write, Write];
     const CULL: &[Binding] = &[Uniform, Write];
     const DECIDE: &[Binding] = &[Uniform, Read, Read, Write, Write, Write];
     const APPLY: &[Binding] = &[Uniform, Write, Write, Write, Write, Write];
@@ -126,6 +129,10 @@ pub fn modules(kind: &Kind) -> Vec<Module> {
     if let Some(culling) = kind.back_faces.shader() {
         let files = &["passes/cull_faces.wgsl", culling, kind.surface];
         all.push(module("cull", files, CULL, true, &["cull_faces"]));
+    }
+    if let Some(patches) = kind.pose {
+        let files = &["passes/pose.wgsl", patches];
+        all.push(module("pose", files, POSE, false, &["pose_faces", "pose_edges"]));
     }
     if kind.balance == Balance::Table {
         all.push(module(

@@ -13,6 +13,8 @@
 //! # Practice: one pass
 //! | dispatch | invocations | does |
 //! |---|---|---|
+//! | `pose_faces`, `pose_edges` | faces, half-edges | only where the control mesh has moved: control points, bounds |
+//! | `measure_all` | leaves | only after that, or when the origin has moved: asks the surface about all leaves |
 //! | `decide_splits` | leaves that want to split | what was published → change records, requests |
 //! | `decide_merges` | leaves with a satisfied parent | what was published → change records |
 //! | `copy_changes` | 1 | arguments |
@@ -29,6 +31,7 @@
 use crate::buffers::{Buffers, Groups, check_capacity};
 use crate::layout::{self, Control, Leaf, arguments, state};
 use crate::passes::{Kind, Passes, Stage};
+use crate::posing::Posing;
 use crate::settings::Balance;
 use crate::statistics::{Statistics, StatisticsReader};
 use crate::surface_buffers::SurfaceBuffers;
@@ -50,6 +53,8 @@ pub struct Quadtree {
     world_from_object: DAffine3,
     reader: StatisticsReader,
     needs_measure: bool,
+    /// Where the control mesh moves and the GPU follows it.
+    posing: Option<Posing>,
     /// Of the last update.
     frame: Option<Frame>,
 }
@@ -57,6 +62,8 @@ pub struct Quadtree {
 /// The parts of a pass, in their order: the rows of the table above.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Phase {
+    /// What has moved: the control points of the surface, and what the surface says of all leaves. Nothing in most frames.
+    Refresh,
     /// Splits, merges and requests are decided.
     Decide,
     /// They happen: leaves, leaf table, pair flags.
@@ -71,11 +78,19 @@ pub enum Phase {
 
 impl Phase {
     /// All, in their order.
-    pub const ALL: [Self; 5] = [Self::Decide, Self::Apply, Self::Measure, Self::Compact, Self::Update];
+    pub const ALL: [Self; 6] = [
+        Self::Refresh,
+        Self::Decide,
+        Self::Apply,
+        Self::Measure,
+        Self::Compact,
+        Self::Update,
+    ];
 
     /// The name that reports and labels use.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Refresh => "refresh",
             Self::Decide => "decide",
             Self::Apply => "apply",
             Self::Measure => "measure",
@@ -93,6 +108,7 @@ impl Quadtree {
             metric: settings.metric.shader(),
             balance: settings.balance,
             back_faces: settings.back_faces,
+            pose: if settings.moving { surface.pose_shader() } else { None },
         }
     }
 
@@ -115,6 +131,7 @@ impl Quadtree {
         let culled = settings.back_faces.shader().map(|_| surface.topology().face_count());
         let buffers = Buffers::new(device, &settings, culled);
         let groups = Groups::new(device, &passes, &buffers);
+        let posing = Posing::new(device, &passes, surface.as_ref(), &surface_buffers)?;
         let mut quadtree = Self {
             passes,
             surface,
@@ -125,6 +142,7 @@ impl Quadtree {
             world_from_object,
             reader: StatisticsReader::new(device),
             needs_measure: true,
+            posing,
             frame: None,
         };
         let roots: Vec<Place> = quadtree.surface.topology().roots().collect();
@@ -182,10 +200,50 @@ impl Quadtree {
         if settings.back_faces != self.settings.back_faces {
             return fixed("back_faces", settings.back_faces.name().to_owned());
         }
+        if settings.moving != self.settings.moving {
+            return fixed("moving", settings.moving.to_string());
+        }
         self.needs_measure |= settings.max_level != self.settings.max_level
             || settings.base_grid != self.settings.base_grid
             || settings.metric.parameter() != self.settings.metric.parameter();
         self.settings = settings;
+        Ok(())
+    }
+
+    /// Moves the vertices of the control mesh, object space. The next update finds control points and bounds on the GPU, and asks the
+    /// surface about all leaves anew. [`surface`](Self::surface) stays as it is.
+    ///
+    /// # Errors
+    /// [`KeyleafError::Cage`] if the settings do not say that it moves, the surface cannot be posed on the GPU
+    /// ([`set_surface`](Self::set_surface) can), a position is not finite or there are not as many as before.
+    pub fn set_cage(&mut self, positions: Vec<DVec3>) -> Result<(), KeyleafError> {
+        let Some(posing) = &mut self.posing else {
+            return Err(KeyleafError::Cage(
+                "it was made without Settings::moving, or is no subdivision surface".to_owned(),
+            ));
+        };
+        posing.set(positions)
+    }
+
+    /// Whether [`set_cage`](Self::set_cage) can move it.
+    pub fn is_posed_on_gpu(&self) -> bool {
+        self.posing.is_some()
+    }
+
+    /// Puts another surface of the same kind and size in the place of this one, such as another pose of it. The tables are made on the
+    /// CPU and sent whole.
+    ///
+    /// # Errors
+    /// [`KeyleafError::Cage`] if it is of another kind or size.
+    pub fn set_surface(&mut self, queue: &wgpu::Queue, surface: Arc<dyn Surface>) -> Result<(), KeyleafError> {
+        let is_same = surface.shader() == self.surface.shader() && surface.topology() == self.surface.topology();
+        if !is_same || !self.surface_buffers.replace(queue, surface.as_ref()) {
+            return Err(KeyleafError::Cage(
+                "the other surface has other faces or patches".to_owned(),
+            ));
+        }
+        self.surface = surface;
+        self.needs_measure = true;
         Ok(())
     }
 
@@ -260,7 +318,6 @@ impl Quadtree {
                 label: Some("keyleaf.update"),
                 timestamp_writes: None,
             });
-            self.measure_if_needed(&mut pass);
             for _ in 0..self.settings.settle {
                 for phase in Phase::ALL {
                     self.run(phase, &mut pass);
@@ -285,7 +342,6 @@ impl Quadtree {
                     label: Some(phase.name()),
                     timestamp_writes: timestamps(phase),
                 });
-                self.measure_if_needed(&mut pass);
                 self.run(phase, &mut pass);
             }
         }
@@ -330,6 +386,9 @@ impl Quadtree {
             self.surface_buffers.move_origin(queue, self.surface.as_ref(), origin);
             self.needs_measure = true;
         }
+        if let Some(posing) = &mut self.posing {
+            self.needs_measure |= posing.write(queue, origin);
+        }
     }
 
     /// Table, flags and measures of all leaves, where they are out of date.
@@ -345,9 +404,21 @@ impl Quadtree {
         }
     }
 
-    fn run(&self, phase: Phase, pass: &mut wgpu::ComputePass<'_>) {
+    /// Control points and bounds, where the control mesh has moved.
+    fn pose_if_needed(&mut self, pass: &mut wgpu::ComputePass<'_>) {
+        if let (Some(posing), Some(stage)) = (&mut self.posing, self.passes.stage("pose")) {
+            posing.record(stage, pass);
+        }
+    }
+
+    fn run(&mut self, phase: Phase, pass: &mut wgpu::ComputePass<'_>) {
+        if phase == Phase::Refresh {
+            self.pose_if_needed(pass);
+            self.measure_if_needed(pass);
+        }
         let groups = &self.groups;
         match phase {
+            Phase::Refresh => {}
             Phase::Decide => {
                 self.dispatch(pass, "decide", 0, &groups.decide, arguments::SPLITS);
                 self.dispatch(pass, "decide", 1, &groups.decide, arguments::MERGES);
@@ -430,11 +501,16 @@ impl Quadtree {
         all.push(("arguments", self.buffers.arguments.size()));
         all.extend(self.buffers.faces.iter().map(|faces| ("faces", faces.size())));
         all.extend(self.surface_buffers.sizes.iter().copied());
+        all.extend(self.posing.iter().map(|posing| ("pose", posing.bytes())));
         all
     }
 
     pub(crate) fn buffers(&self) -> &Buffers {
         &self.buffers
+    }
+
+    pub(crate) fn surface_tables(&self) -> [&wgpu::Buffer; 2] {
+        [&self.surface_buffers.a, &self.surface_buffers.b]
     }
 
     pub(crate) fn surface_group(&self) -> &wgpu::BindGroup {

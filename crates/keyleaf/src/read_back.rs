@@ -69,6 +69,23 @@ impl Quadtree {
     }
 }
 
+impl Quadtree {
+    /// Copies the tables of the surface from the GPU, `surface_a` and `surface_b`, and waits for them.
+    ///
+    /// # Errors
+    /// [`KeyleafError::ReadBack`] if the device is lost.
+    pub fn read_surface(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+    ) -> Result<(Vec<f32>, Vec<u32>), KeyleafError> {
+        let [a, b] = self.surface_tables();
+        let a = read(device, queue, "surface A", a, 0, a.size())?;
+        let b = read(device, queue, "surface B", b, 0, b.size())?;
+        Ok((bytemuck::pod_collect_to_vec(&a), bytemuck::pod_collect_to_vec(&b)))
+    }
+}
+
 /// Copies bytes of a buffer from the GPU, and waits for them.
 ///
 /// # Errors

@@ -224,6 +224,8 @@ pub struct Settings {
     pub balance: Balance,
     /// What is done with triangles that are seen from behind.
     pub back_faces: BackFaces,
+    /// Whether the control mesh of the surface moves, see [`Quadtree::set_cage`](crate::Quadtree::set_cage).
+    pub moving: bool,
 }
 
 /// What is done with triangles that are seen from behind. All but [`BackFaces::Drawn`] are for closed surfaces, whose objects are
@@ -315,6 +317,7 @@ impl Default for Settings {
             cull: true,
             balance: Balance::Table,
             back_faces: BackFaces::Drawn,
+            moving: false,
         }
     }
 }

@@ -43,7 +43,8 @@ pub(crate) struct SurfaceBuffers {
     /// (name, bytes) of each buffer and texture, for `plan`.
     pub sizes: Vec<(&'static str, u64)>,
     params: wgpu::Buffer,
-    a: wgpu::Buffer,
+    pub a: wgpu::Buffer,
+    pub b: wgpu::Buffer,
 }
 
 impl SurfaceBuffers {
@@ -74,13 +75,13 @@ impl SurfaceBuffers {
             device,
             "keyleaf.surface.a",
             bytemuck::cast_slice(&tables.a),
-            wgpu::BufferUsages::STORAGE,
+            wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
         );
         let b = buffer(
             device,
             "keyleaf.surface.b",
             bytemuck::cast_slice(&tables.b),
-            wgpu::BufferUsages::STORAGE,
+            wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC,
         );
         let upload = |label, data: &Option<std::sync::Arc<TextureData>>| {
             data.as_ref().map(|data| texture(device, queue, label, data))
@@ -111,6 +112,7 @@ impl SurfaceBuffers {
             sizes,
             params,
             a,
+            b,
         })
     }
 
@@ -120,6 +122,21 @@ impl SurfaceBuffers {
         queue.write_buffer(&self.params, 0, &tables.params);
         queue.write_buffer(&self.a, 0, bytemuck::cast_slice(&tables.a));
         self.origin = origin;
+    }
+
+    /// Writes the tables of another surface of the same kind and size; false if it is of another.
+    pub fn replace(&mut self, queue: &wgpu::Queue, surface: &dyn Surface) -> bool {
+        let tables = surface.tables(self.origin);
+        let [a, b]: [&[u8]; 2] = [bytemuck::cast_slice(&tables.a), bytemuck::cast_slice(&tables.b)];
+        let fits = [(&self.params, tables.params.as_slice()), (&self.a, a), (&self.b, b)]
+            .iter()
+            .all(|(buffer, bytes)| buffer.size() == (bytes.len() as u64).max(16));
+        if fits {
+            queue.write_buffer(&self.params, 0, &tables.params);
+            queue.write_buffer(&self.a, 0, a);
+            queue.write_buffer(&self.b, 0, b);
+        }
+        fits
     }
 }
 
@@ -157,7 +174,7 @@ fn check_sizes(device: &wgpu::Device, tables: &SurfaceTables, topology_words: us
 }
 
 /// A buffer with the given content, never of size zero.
-fn buffer(device: &wgpu::Device, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
+pub(crate) fn buffer(device: &wgpu::Device, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
     let usage = usage | wgpu::BufferUsages::COPY_DST;
     let contents = if contents.is_empty() { &[0u8; 16][..] } else { contents };
     device.create_buffer_init(&wgpu::util::BufferInitDescriptor {

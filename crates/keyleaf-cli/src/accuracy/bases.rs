@@ -93,6 +93,7 @@ fn scene_of(surface: Arc<dyn Surface>) -> Loaded {
         objects: vec![LoadedObject {
             name: "sheet".to_owned(),
             surface,
+            cage: None,
             world_from_object: DAffine3::IDENTITY,
             settings,
             material: Material::Plain,

@@ -129,7 +129,7 @@ impl LocalDeviation {
         } else {
             let QuadCoord { u, v } = QuadCoord::of(centre);
             let [before, after] = [0, 1].map(|side| {
-                let of_axis = |value: u64| ((value + side).clamp(1, UNIT) - 1 >> (32 - level)) as u32;
+                let of_axis = |value: u64| (((value + side).clamp(1, UNIT) - 1) >> (32 - level)) as u32;
                 self.cell(leaf.face, level, [of_axis(u), of_axis(v)])
             });
             let axis = (leaf.root + leaf.orientation) as usize % 2;

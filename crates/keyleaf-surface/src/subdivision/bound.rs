@@ -54,6 +54,41 @@ fn larger(a: Slopes, b: Slopes) -> Slopes {
     }
 }
 
+/// A patch of a domain that a root touches.
+pub struct Touched {
+    pub domain: usize,
+    pub patch: u32,
+    /// Whether the parameters of the domain are those of the root exchanged.
+    pub is_turned: bool,
+}
+
+/// The patches that a root touches: all bounds of the root are the largest of theirs.
+pub fn touched(trees: &[Tree], scheme: SubdivisionScheme, corners: usize, root: usize) -> Vec<Touched> {
+    let of = |domain: usize, is_turned: bool, touches: &dyn Fn(CellPlace) -> bool| -> Vec<Touched> {
+        let patches = (0..).zip(&trees[domain].places);
+        let patches = patches.filter(|(_, place)| touches(**place));
+        patches
+            .map(|(patch, _)| Touched {
+                domain,
+                patch,
+                is_turned,
+            })
+            .collect()
+    };
+    match scheme {
+        SubdivisionScheme::Loop(_) => of(0, false, &|place| touches_triangle_root(place, root)),
+        SubdivisionScheme::CatmullClark if corners == 4 => of(0, false, &|place| touches_square_root(place, root)),
+        SubdivisionScheme::CatmullClark => {
+            // Half of two domains, in each other's parameters exchanged.
+            let mut all = of(root, false, &|place| place.origin[0] + place.right[0] > place.origin[1]);
+            all.extend(of((root + 1) % corners, true, &|place| {
+                place.origin[1] + place.up[1] > place.origin[0]
+            }));
+            all
+        }
+    }
+}
+
 /// The bounds of the roots of a face, taken alone. `slopes` are those of a patch of a domain, in the parameters of the domain.
 pub fn of_roots(
     trees: &[Tree],
@@ -61,43 +96,34 @@ pub fn of_roots(
     corners: usize,
     slopes: impl Fn(usize, u32, CellPlace) -> Slopes,
 ) -> Vec<RootBound> {
-    let domains: Vec<Vec<(CellPlace, Slopes)>> = trees
+    let domains: Vec<Vec<Slopes>> = trees
         .iter()
         .enumerate()
         .map(|(domain, tree)| {
             let patches = (0..).zip(&tree.places);
-            patches
-                .map(|(patch, &place)| (place, slopes(domain, patch, place)))
-                .collect()
+            patches.map(|(patch, &place)| slopes(domain, patch, place)).collect()
         })
         .collect();
-    let over = |domain: usize, touches: &dyn Fn(CellPlace) -> bool| {
-        let cells = domains[domain].iter().filter(|(place, _)| touches(*place));
-        cells.fold(Slopes::default(), |sum, (_, slopes)| larger(sum, *slopes))
+    let of_root = |root: usize| {
+        let touched = touched(trees, scheme, corners, root);
+        let largest = touched.iter().fold(Slopes::default(), |largest, touched| {
+            let slopes = domains[touched.domain][touched.patch as usize];
+            larger(largest, if touched.is_turned { turned(slopes) } else { slopes })
+        });
+        match scheme {
+            SubdivisionScheme::Loop(_) => RootBound::of_triangle(largest, triangle_directions(root)),
+            SubdivisionScheme::CatmullClark => RootBound::of_square(largest, if corners == 4 { 1.0 } else { 2.0 }),
+        }
     };
-    (0..corners)
-        .map(|root| match scheme {
-            SubdivisionScheme::Loop(_) => {
-                let slopes = over(0, &|place| touches_triangle_root(place, root));
-                RootBound::of_triangle(slopes, triangle_directions(root))
-            }
-            SubdivisionScheme::CatmullClark if corners == 4 => {
-                RootBound::of_square(over(0, &|place| touches_square_root(place, root)), 1.0)
-            }
-            SubdivisionScheme::CatmullClark => {
-                // Half of two domains, in each other's parameters exchanged.
-                let below = over(root, &|place| place.origin[0] + place.right[0] > place.origin[1]);
-                let Slopes { first, second } = over((root + 1) % corners, &|place| {
-                    place.origin[1] + place.up[1] > place.origin[0]
-                });
-                let turned = Slopes {
-                    first: [first[1], first[0]],
-                    second: [second[2], second[1], second[0]],
-                };
-                RootBound::of_square(larger(below, turned), 2.0)
-            }
-        })
-        .collect()
+    (0..corners).map(of_root).collect()
+}
+
+/// In parameters exchanged.
+fn turned(Slopes { first, second }: Slopes) -> Slopes {
+    Slopes {
+        first: [first[1], first[0]],
+        second: [second[2], second[1], second[0]],
+    }
 }
 
 /// Whether a cell of a quad has a part inside the quarter at edge `root`.

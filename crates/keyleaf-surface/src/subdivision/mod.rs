@@ -31,6 +31,7 @@
 //! | `tree`, `neighbourhoods` | trees, and which faces share them |
 //! | `bezier`, `approximation` | points by patches: what the GPU draws |
 //! | `addresses`, `bound`, `tables` | what the GPU reads |
+//! | `pose` | what it reads to move |
 
 pub(crate) mod addresses;
 pub(crate) mod approximation;
@@ -48,6 +49,7 @@ pub(crate) mod exact;
 mod limit;
 mod loop_scheme;
 pub(crate) mod neighbourhoods;
+mod pose;
 mod quartic;
 mod refinement;
 mod ring;
@@ -66,7 +68,9 @@ pub use scheme::SubdivisionScheme;
 use crate::direction::frame_normal;
 use crate::mesh::unit_or_up;
 use crate::root_bound::RootBound;
-use crate::{ParameterError, SettingError, Surface, SurfaceBound, SurfaceFrame, SurfaceTables, coordinate, diamond};
+use crate::{
+    ParameterError, PoseTables, SettingError, Surface, SurfaceBound, SurfaceFrame, SurfaceTables, coordinate, diamond,
+};
 use cage::Cage;
 use cell::DomainPoint;
 use exact::ExactPoint;
@@ -143,6 +147,8 @@ pub struct Subdivision {
     /// By half-edge.
     bounds: Vec<RootBound>,
     terminal_error: f64,
+    /// A box of all control points of patches.
+    extent: (DVec3, DVec3),
 }
 
 impl Subdivision {
@@ -172,28 +178,74 @@ impl Subdivision {
                 isolation,
             });
         }
-        let points = neighbourhoods.apply(&cage.positions);
-        let errors = neighbourhoods.errors(&cage.positions);
         let mut surface = Self {
             scheme,
             cage,
             neighbourhoods,
-            points,
+            points: Vec::new(),
             normals: Vec::new(),
             bounds: Vec::new(),
-            terminal_error: BETWEEN_SAMPLES * errors.iter().map(|error| error.length()).fold(0.0, f64::max),
+            terminal_error: 0.0,
+            extent: (DVec3::INFINITY, DVec3::NEG_INFINITY),
             topology,
         };
-        surface.normals = (0..surface.topology.face_count())
-            .map(|face| surface.mean_normal(face))
-            .collect();
-        surface.bounds = surface.root_bounds();
+        surface.points = surface.neighbourhoods.apply(&surface.cage.positions);
+        surface.allow_for_pose();
+        surface.follow_points();
         Ok(surface)
+    }
+
+    /// The surface with the vertices of its control mesh elsewhere; `None` if there are not as many or one is not finite.
+    pub fn posed(&self, positions: &[DVec3]) -> Option<Self> {
+        let fits = positions.len() == self.cage.positions.len() && positions.iter().all(|p| p.is_finite());
+        fits.then(|| {
+            let mut posed = self.clone();
+            posed.cage.positions = positions.to_vec();
+            posed.points = posed.neighbourhoods.apply(positions);
+            posed.allow_for_pose();
+            posed.follow_points();
+            posed
+        })
+    }
+
+    /// Makes the box and the error of terminal patches those of this surface and of others, which are this one posed: what does not
+    /// change while the control mesh moves.
+    pub fn allow_for(&mut self, others: &[Self]) {
+        for other in others {
+            self.terminal_error = self.terminal_error.max(other.terminal_error);
+            self.extent = (self.extent.0.min(other.extent.0), self.extent.1.max(other.extent.1));
+        }
+    }
+
+    /// Widens the box and the error of terminal patches to those of the present control points.
+    fn allow_for_pose(&mut self) {
+        let errors = self.neighbourhoods.errors(&self.cage.positions);
+        let error = BETWEEN_SAMPLES * errors.iter().map(|error| error.length()).fold(0.0, f64::max);
+        self.terminal_error = self.terminal_error.max(error);
+        for patch in self.points.chunks_exact(self.neighbourhoods.control_points) {
+            for (k, &point) in patch.iter().enumerate() {
+                let point = if k == 0 { point } else { patch[0] + point };
+                self.extent = (self.extent.0.min(point), self.extent.1.max(point));
+            }
+        }
+    }
+
+    /// Normals and bounds of the present control points.
+    fn follow_points(&mut self) {
+        self.normals = (0..self.topology.face_count())
+            .map(|face| self.mean_normal(face))
+            .collect();
+        self.bounds = self.root_bounds();
     }
 
     /// The rules of refinement.
     pub fn scheme(&self) -> SubdivisionScheme {
         self.scheme
+    }
+
+    /// The vertices of the control mesh.
+    pub fn control_positions(&self) -> &[DVec3] {
+        &self.cage.positions
     }
 
     /// The faces of the control mesh that are drawn: by face of the surface, its number in the control mesh.
@@ -337,14 +389,7 @@ impl Surface for Subdivision {
     }
 
     fn bounding_box(&self) -> (DVec3, DVec3) {
-        let patches = self.points.chunks_exact(self.neighbourhoods.control_points);
-        let points = patches.flat_map(|patch| {
-            let first = patch[0];
-            std::iter::once(first).chain(patch[1..].iter().map(move |&difference| first + difference))
-        });
-        let (low, high) = points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), point| {
-            (low.min(point), high.max(point))
-        });
+        let (low, high) = self.extent;
         (low - self.terminal_error, high + self.terminal_error)
     }
 
@@ -357,6 +402,14 @@ impl Surface for Subdivision {
 
     fn tables(&self, origin: DVec3) -> SurfaceTables {
         tables::tables(self, origin)
+    }
+
+    fn pose_shader(&self) -> Option<&'static str> {
+        Some(pose::shader(self.scheme))
+    }
+
+    fn pose_tables(&self) -> Option<PoseTables> {
+        Some(pose::tables(self))
     }
 
     /// Faces have the numbers of the control mesh.

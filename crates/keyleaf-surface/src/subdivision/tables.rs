@@ -67,6 +67,11 @@ pub fn tables(surface: &Subdivision, origin: DVec3) -> SurfaceTables {
     }
 }
 
+/// The word of `surface_b` of the first half-edge.
+pub fn first_record(topology: &Topology) -> u32 {
+    topology.face_count() + 1
+}
+
 /// Faces, half-edges and nodes.
 pub struct TopologyWords {
     /// `surface_b`.
@@ -86,7 +91,7 @@ impl TopologyWords {
         entry_of: impl Fn(usize) -> usize,
     ) -> Self {
         let faces = topology.face_count();
-        let half_edges = faces as usize + 1;
+        let half_edges = first_record(topology) as usize;
         let first_node = half_edges + WORDS_OF_HALF_EDGE * topology.half_edge_count() as usize;
         let (nodes, roots) = node_words(all, first_node);
         let mut words: Vec<u32> = (0..faces).map(|face| topology.first_half_edge(face)).collect();

@@ -11,6 +11,7 @@ mod bench;
 mod check;
 mod collapse;
 mod csv;
+mod difference;
 mod eval;
 mod export;
 mod info;

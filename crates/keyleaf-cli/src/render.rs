@@ -2,6 +2,7 @@
 
 use crate::Outcome;
 use crate::arguments::{SceneArguments, ViewArguments};
+use crate::difference::{self, Quantity};
 use crate::output::{self, thousands};
 use crate::session::{self, DeviceReport};
 use crate::timing::{self, Timer};
@@ -11,7 +12,7 @@ use glam::{DVec3, UVec2};
 use image::{DynamicImage, ImageBuffer, ImageFormat};
 use keyleaf::headless::Headless;
 use keyleaf::{KeyleafError, View};
-use keyleaf_stage::{Canvas, Loaded, Show, Stage, StageLook};
+use keyleaf_stage::{Canvas, Deviations, Loaded, Show, Stage, StageLook};
 use serde_json::json;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -24,7 +25,8 @@ use std::time::Instant;
 #[command(after_help = "Examples:
   keyleaf render scenes/terrain_real.ron -o terrain.png
   keyleaf render cow.obj -o cow.png --eye 3,2,4 --look-at 0,1,0 --fov 40 --size 800x600 --wireframe
-  keyleaf render scenes/fox.ron -o fox.exr --channel position --json")]
+  keyleaf render scenes/fox.ron -o fox.exr --channel position --json
+  keyleaf render scenes/valences.ron -o error.png --channel error")]
 pub struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
@@ -70,16 +72,29 @@ pub enum Channel {
     /// World positions: in an .exr as floats, alpha 1 where there is a surface; in a .png as 16-bit numbers, 0 to 65535 from the
     /// least to the greatest coordinate of the scene's box
     Position,
+    /// How far vertices are from the exact surface, over its diagonal: 1e-9 dark blue to 1e-3 yellow, by decades
+    Error,
+    /// The angle between their normals and the exact ones: 1e-7 dark blue to 1e-1 radians yellow, by decades
+    NormalError,
 }
 
 impl Channel {
+    /// What of the difference to the exact surface it shows.
+    fn quantity(self) -> Option<Quantity> {
+        match self {
+            Self::Error => Some(Quantity::Position),
+            Self::NormalError => Some(Quantity::Normal),
+            _ => None,
+        }
+    }
+
     /// The channel with what is drawn over it.
     pub fn look(self, overlay: OverlayArguments) -> StageLook {
         let show = match self {
             Self::Color => Show::Colour,
             Self::Normal => Show::Normal,
             Self::Level => Show::Level,
-            Self::Position => Show::Position,
+            Self::Position | Self::Error | Self::NormalError => Show::Position,
         };
         StageLook {
             show,
@@ -118,8 +133,17 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
     let settled = session::settle(&gpu, &mut stage, &view, arguments.frames, quiet)?;
     let timer = Timer::new(&gpu, &stage);
     let frame = timing::frame(&gpu, &mut stage, Some(&canvas), &view, timer.as_ref())?;
-    let bytes = encode(canvas.read(&gpu)?, size, look.show, format, &view, &loaded)?;
-    output::write(&arguments.output, &bytes)?;
+    let (picture, error) = match arguments.channel.quantity() {
+        Some(quantity) => {
+            let (colours, error) = difference::of_stage(&gpu, &stage, &loaded, &view, quantity)?;
+            (png(colours, size)?, Some(error))
+        }
+        None => {
+            let pixels = canvas.read(&gpu)?;
+            (encode(pixels, size, look.show, format, &view, &loaded)?, None)
+        }
+    };
+    output::write(&arguments.output, &picture)?;
 
     let device = DeviceReport::new(&gpu);
     let statistics = frame.statistics;
@@ -134,7 +158,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
             "starved": statistics.starved, "threshold_factor": statistics.threshold_factor,
             "passes": [{ "name": "update", "ms": frame.update.ms }, { "name": "draw", "ms": draw.ms }],
             "clock": timing::clock(timer.as_ref()), "times": device.times,
-            "notes": loaded.notes, "seconds": seconds,
+            "error": error, "notes": loaded.notes, "seconds": seconds,
         }))?;
     } else {
         let starved = match statistics.starved {
@@ -151,6 +175,16 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
             thousands(statistics.triangles),
             device.device,
         ))?;
+        if let Some(Deviations { largest, rms }) = error {
+            let what = if arguments.channel == Channel::Error {
+                "positions: over the diagonal"
+            } else {
+                "normals: radians"
+            };
+            output::print(&format!(
+                "difference of {what}, largest {largest:.2e}, root mean square {rms:.2e}"
+            ))?;
+        }
     }
     Ok(Outcome::Done)
 }
@@ -179,6 +213,15 @@ fn format(file: &Path, channel: Channel) -> anyhow::Result<ImageFormat> {
             file.display()
         ),
     }
+}
+
+/// A .png of three bytes a pixel.
+fn png(colours: Vec<u8>, size: UVec2) -> anyhow::Result<Vec<u8>> {
+    let whole = || anyhow::anyhow!("the picture has not {}x{} pixels", size.x, size.y);
+    let picture = ImageBuffer::from_raw(size.x, size.y, colours).map(DynamicImage::ImageRgb8);
+    let mut bytes = Cursor::new(Vec::new());
+    picture.ok_or_else(whole)?.write_to(&mut bytes, ImageFormat::Png)?;
+    Ok(bytes.into_inner())
 }
 
 /// A picture file from what was read back.
@@ -214,13 +257,8 @@ fn encode(
             ImageBuffer::from_raw(size.x, size.y, texels).map(DynamicImage::ImageRgba16)
         }
     } else {
-        let colours = pixels
-            .as_chunks::<4>()
-            .0
-            .iter()
-            .flat_map(|[r, g, b, _]| [*r, *g, *b])
-            .collect();
-        ImageBuffer::from_raw(size.x, size.y, colours).map(DynamicImage::ImageRgb8)
+        let colours = pixels.as_chunks::<4>().0.iter();
+        return png(colours.flat_map(|[r, g, b, _]| [*r, *g, *b]).collect(), size);
     };
     let mut bytes = Cursor::new(Vec::new());
     picture.ok_or_else(whole)?.write_to(&mut bytes, format)?;

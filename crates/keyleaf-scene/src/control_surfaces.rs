@@ -67,8 +67,24 @@ impl ControlCage {
         if let Some(posed) = self.at_rest.as_ref().and_then(|rest| rest.posed(&self.pose(time))) {
             return Ok(Arc::new(posed));
         }
-        surface(self, time).map_err(|failure| PoseError {
+        surface(self, &self.shape, time).map_err(|failure| PoseError {
             time,
+            reason: failure.source.to_string(),
+        })
+    }
+
+    /// What its surface is.
+    pub fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    /// Another surface of the same control mesh, at time 0.
+    ///
+    /// # Errors
+    /// [`PoseError`] if the control mesh has none of that shape.
+    pub fn surface_as(&self, shape: &Shape) -> Result<Arc<dyn Surface>, PoseError> {
+        surface(self, shape, 0.0).map_err(|failure| PoseError {
+            time: 0.0,
             reason: failure.source.to_string(),
         })
     }
@@ -130,7 +146,7 @@ pub(crate) fn make(folder: &Path, file: &Path, entry: &SurfaceEntry, notes: &mut
     };
     let surface = match cage.keep_at_rest()? {
         Some(surface) => surface,
-        None => surface(&cage, 0.0)?,
+        None => surface(&cage, &cage.shape, 0.0)?,
     };
     let corners = corner_attributes(&cage.control, surface.as_ref());
     Ok(Made {
@@ -270,10 +286,10 @@ fn covariances(
 }
 
 /// The surface of a control mesh as it is at a time.
-fn surface(cage: &ControlCage, time: f64) -> Result<Arc<dyn Surface>, Failure> {
+fn surface(cage: &ControlCage, shape: &Shape, time: f64) -> Result<Arc<dyn Surface>, Failure> {
     let mut control = cage.control.clone();
     control.mesh.positions = cage.pose(time);
-    match &cage.shape {
+    match shape {
         Shape::Qas(shape) => qas(&control, shape),
         Shape::PnTriangles => pn_triangles(&control),
         Shape::GaussianProduct(shape) => {

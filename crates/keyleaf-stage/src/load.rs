@@ -67,7 +67,7 @@ pub struct LoadedObject {
     pub name: String,
     /// The evaluator; of a moving control mesh as it is at time 0.
     pub surface: Arc<dyn Surface>,
-    /// The control mesh, if it moves.
+    /// The control mesh, if it is the surface of one.
     pub cage: Option<Arc<ControlCage>>,
     /// Where it stands.
     pub world_from_object: DAffine3,
@@ -147,7 +147,7 @@ fn object(opened: OpenedSurface) -> LoadedObject {
     });
     let uses_corners = matches!(material, Material::Texture | Material::Attributes | Material::Matcap);
     let [red, green, blue, _] = opened.material.base_colour;
-    let cage = opened.cage.filter(|cage| cage.motion.is_some());
+    let moving = opened.cage.as_ref().is_some_and(|cage| cage.motion.is_some());
     LoadedObject {
         look: look_of(
             opened.surface.topology(),
@@ -155,10 +155,10 @@ fn object(opened: OpenedSurface) -> LoadedObject {
             texture,
         ),
         settings: Settings {
-            moving: cage.is_some(),
+            moving,
             ..settings(&opened.settings)
         },
-        cage,
+        cage: opened.cage,
         name: opened.name,
         surface: opened.surface,
         world_from_object: DAffine3::from_mat4(opened.world_from_object),
@@ -262,7 +262,7 @@ impl Loaded {
     /// [`LoadError::Pose`] if the pose of one has no surface.
     pub fn pose(&mut self, time: f64) -> Result<(), LoadError> {
         for object in &mut self.objects {
-            if let Some(cage) = &object.cage {
+            if let Some(cage) = object.cage.as_ref().filter(|cage| cage.motion.is_some()) {
                 let posed = cage.surface_at(time);
                 object.surface = posed.map_err(|source| LoadError::Pose {
                     name: object.name.clone(),

@@ -187,7 +187,7 @@ impl Stage {
                 pipeline,
                 draw,
                 shading: object.shading(light),
-                cage: object.cage.clone(),
+                cage: object.cage.clone().filter(|cage| cage.motion.is_some()),
             });
         }
         let sky = if effects.sky {

@@ -1,18 +1,18 @@
 //! Methods for basis functions × degree: milliseconds, and f32 error against the f64 twin.
 
 use super::Shown;
+use super::samples;
 use super::studio::{Setup, Studio};
 use crate::progress;
 use glam::{DAffine3, DVec3};
 use keyleaf::draw::Look;
-use keyleaf::inspect::Inspector;
 use keyleaf::key::RootPoint;
 use keyleaf::shading::Material;
 use keyleaf::surface::{BasisMethod, NurbsSurface, PatchKind, PatchSettings, Patches, Surface};
-use keyleaf::{Metric, Quadtree, Settings, View};
+use keyleaf::{Metric, Settings, View};
 use keyleaf_scene::Scene;
 use keyleaf_scene::scene::Colouring;
-use keyleaf_stage::{Loaded, LoadedObject, Pipelines};
+use keyleaf_stage::{Deviations, Loaded, LoadedObject, Pipelines};
 use serde_json::json;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -106,46 +106,13 @@ fn scene_of(surface: Arc<dyn Surface>) -> Loaded {
     }
 }
 
-/// Largest and root-mean-square distance between the GPU and the f64 twin, in units of 2⁻²⁴ of the largest coordinate.
-fn errors(
-    setup: &Setup<'_>,
-    surface: &Arc<dyn Surface>,
-    inspector: &Inspector,
-    pipelines: &mut Pipelines,
-) -> anyhow::Result<[f64; 2]> {
-    let gpu = setup.gpu;
-    let topology = surface.topology();
-    let at: Vec<RootPoint> = (0..SAMPLES).map(|i| sample(i, topology.face_count())).collect();
-    let settings = Settings {
-        capacity: topology.half_edge_count(),
-        ..Settings::default()
-    };
-    let passes = pipelines.passes(&gpu.device, Quadtree::kind(surface.as_ref(), &settings))?;
-    let place = DAffine3::IDENTITY;
-    let quadtree = Quadtree::new(&gpu.device, &gpu.queue, passes, Arc::clone(surface), place, settings)?;
-    let frames = inspector.evaluate(&gpu.device, &gpu.queue, &quadtree, &at)?;
+/// Distances between the GPU and the f64 twin, in units of 2⁻²⁴ of the largest coordinate.
+fn errors(setup: &Setup<'_>, surface: &Arc<dyn Surface>, pipelines: &mut Pipelines) -> anyhow::Result<Deviations> {
+    let at: Vec<RootPoint> = (0..SAMPLES).map(|i| samples::even(surface.topology(), i)).collect();
+    let found = samples::differences(setup, surface, surface.as_ref(), &at, pipelines)?;
     let (low, high) = surface.bounding_box();
     let unit = F32_ROUNDING * low.abs().max(high.abs()).max_element();
-    let distances = at.iter().zip(&frames).map(|(at, frame)| {
-        let there = frame.position.as_dvec3() + quadtree.origin();
-        there.distance(surface.point(*at)) / unit
-    });
-    let (largest, squares) = distances.fold((0.0f64, 0.0), |(m, s), d| (m.max(d), s + d * d));
-    Ok([largest, (squares / f64::from(SAMPLES)).sqrt()])
-}
-
-/// Point i of Roberts' sequence, which is even over a root; faces and roots in turn.
-fn sample(i: u32, faces: u32) -> RootPoint {
-    let fraction = |step: f64| (f64::from(i) * step).fract();
-    let (a, b) = (fraction(0.754_877_666_246_693), fraction(0.569_840_290_998_053));
-    let (a, b) = if a + b > 1.0 { (1.0 - a, 1.0 - b) } else { (a, b) };
-    let fixed = |x: f64| (x * f64::from(1u32 << 31)) as u32;
-    RootPoint {
-        face: i % faces,
-        root: (i / faces) % 4,
-        x: fixed(a),
-        y: fixed(b),
-    }
+    Ok(Deviations::of(found.iter().map(|found| found.distance)).scaled(1.0 / unit))
 }
 
 /// What one method does at one degree.
@@ -155,7 +122,7 @@ struct Measured {
     ms: f64,
     triangles: u64,
     /// Largest and root mean square, even knots, then hard ones.
-    errors: [[f64; 2]; 2],
+    errors: [Deviations; 2],
 }
 
 fn measure(
@@ -173,8 +140,6 @@ fn measure(
     };
     // The degree is data: pipelines serve all.
     let mut pipelines = Pipelines::default();
-    let kind = Quadtree::kind(surface(2, false)?.as_ref(), &Settings::default());
-    let inspector = Inspector::new(&setup.gpu.device, &kind)?;
     let mut all = Vec::new();
     for degree in DEGREES {
         let [even, hard] = [surface(degree, false)?, surface(degree, true)?];
@@ -186,8 +151,8 @@ fn measure(
             ms: shot.ms,
             triangles: shot.triangles,
             errors: [
-                errors(setup, &even, &inspector, &mut pipelines)?,
-                errors(setup, &hard, &inspector, &mut pipelines)?,
+                errors(setup, &even, &mut pipelines)?,
+                errors(setup, &hard, &mut pipelines)?,
             ],
         });
     }
@@ -216,20 +181,20 @@ pub fn table(setup: &Setup<'_>, view: &View) -> anyhow::Result<Shown> {
     for m in &measured {
         let first = measured.iter().find(|other| other.degree == m.degree);
         let ratio = m.ms / first.map_or(m.ms, |first| first.ms);
-        let [[even, even_rms], [hard, hard_rms]] = m.errors;
+        let [even, hard] = m.errors;
         rows.push(vec![
             m.degree.to_string(),
             m.name.to_owned(),
             format!("{:.2}", m.ms),
             format!("{ratio:.2}"),
-            format!("{even:.1}"),
-            format!("{even_rms:.2}"),
-            format!("{hard:.1}"),
-            format!("{hard_rms:.2}"),
+            format!("{:.1}", even.largest),
+            format!("{:.2}", even.rms),
+            format!("{:.1}", hard.largest),
+            format!("{:.2}", hard.rms),
         ]);
         shown.rows.push(json!({
             "degree": m.degree, "method": m.name, "ms": m.ms, "triangles": m.triangles, "to_first": ratio,
-            "max_error": even, "rms_error": even_rms, "hard_max_error": hard, "hard_rms_error": hard_rms,
+            "max_error": even.largest, "rms_error": even.rms, "hard_max_error": hard.largest, "hard_rms_error": hard.rms,
             "unit": "2^-24 of the largest coordinate",
         }));
     }

@@ -9,7 +9,7 @@ use crate::output::thousands;
 use crate::progress;
 use anyhow::Context;
 use keyleaf::{BackFaces, Metric, Projection, Threshold, View};
-use keyleaf_baseline::{Method, Quality, deviation};
+use keyleaf_baseline::{Deviation, Method, Quality, deviation};
 use keyleaf_stage::{Loaded, Pipelines};
 use serde_json::json;
 
@@ -47,7 +47,15 @@ const STEPS: u32 = 2;
 struct Curve(Vec<[f64; 2]>);
 
 impl Curve {
-    fn of(setup: &Setup<'_>, scene: &Loaded, view: &View, refined: &Refined, reference: &[u8]) -> anyhow::Result<Self> {
+    /// Until the PSNR is as high as that, or the threshold as fine as it goes.
+    fn of(
+        setup: &Setup<'_>,
+        scene: &Loaded,
+        view: &View,
+        refined: &Refined,
+        reference: &[u8],
+        highest: f64,
+    ) -> anyhow::Result<Self> {
         let (metric, [fine, coarse]) = (refined.metric, refined.range);
         let start = with_settings(scene, |settings| {
             settings.metric = metric(coarse);
@@ -62,7 +70,11 @@ impl Curve {
             let pixels = coarse * (-(step as f32) / STEPS as f32).exp2();
             studio.set(|settings| settings.metric = metric(pixels))?;
             let shot = studio.look()?;
-            points.push([psnr(&shot.pixels, reference), shot.triangles as f64]);
+            let decibels = psnr(&shot.pixels, reference);
+            points.push([decibels, shot.triangles as f64]);
+            if decibels >= highest {
+                break;
+            }
         }
         Ok(Self(points))
     }
@@ -78,6 +90,48 @@ impl Curve {
     }
 }
 
+/// What a method made of the model.
+struct Made {
+    quality: Quality,
+    method: Method,
+    triangles: u64,
+    deviation: Deviation,
+    /// Of its picture.
+    decibels: f64,
+}
+
+/// All methods at all qualities.
+fn tessellations(
+    setup: &Setup<'_>,
+    loaded: &Loaded,
+    view: &View,
+    sampler: &PatchSampler<'_>,
+    reference: &[u8],
+) -> anyhow::Result<Vec<Made>> {
+    let seen = seen_from(loaded, view, setup)?;
+    let quiet = Setup { quiet: true, ..*setup };
+    let mut pipelines = Pipelines::default();
+    let bar = progress::bar((Quality::ALL.len() * Method::ALL.len()) as u64, "methods", setup.quiet);
+    let mut made = Vec::new();
+    for quality in Quality::ALL {
+        for method in Method::ALL {
+            let tessellation = method.tessellate(sampler, &seen, quality)?;
+            let drawn = with_object(loaded, object_of(&loaded.objects[0], sampler, &tessellation)?);
+            let mut studio = Studio::with_pipelines(&quiet, &drawn, view, &mut pipelines)?;
+            made.push(Made {
+                quality,
+                method,
+                triangles: tessellation.triangles.len() as u64,
+                deviation: deviation(sampler, &seen, &tessellation)?,
+                decibels: psnr(&studio.look()?.pixels, reference),
+            });
+            bar.inc(1);
+        }
+    }
+    bar.finish_and_clear();
+    Ok(made)
+}
+
 /// The table of one scene.
 pub fn table(setup: &Setup<'_>, loaded: &Loaded, view: &View) -> anyhow::Result<Shown> {
     let object = &loaded.objects[0];
@@ -86,16 +140,19 @@ pub fn table(setup: &Setup<'_>, loaded: &Loaded, view: &View) -> anyhow::Result<
         .as_patches()
         .context("the surface is no model of patches")?;
     let sampler = PatchSampler::new(patches);
-    let seen = seen_from(loaded, view, setup)?;
     let back_faces = object.settings.back_faces;
     let fine = reference(setup, loaded, view, back_faces)?;
     let quiet = Setup { quiet: true, ..*setup };
-    let bar = progress::bar((Quality::ALL.len() * Method::ALL.len()) as u64, "methods", setup.quiet);
+    let made = tessellations(setup, loaded, view, &sampler, &fine.pixels)?;
+    let highest = made.iter().map(|made| made.decibels).fold(0.0, f64::max);
     let mut curves = Vec::new();
+    let bar = progress::bar(METRICS.len() as u64, "quadtree", setup.quiet);
     for refined in &METRICS {
-        curves.push((refined.name, Curve::of(&quiet, loaded, view, refined, &fine.pixels)?));
+        let curve = Curve::of(&quiet, loaded, view, refined, &fine.pixels, highest)?;
+        curves.push((refined.name, curve));
+        bar.inc(1);
     }
-    let mut pipelines = Pipelines::default();
+    bar.finish_and_clear();
 
     let mut shown = Shown {
         title: format!("{}: tessellations", loaded.file.display()),
@@ -103,42 +160,30 @@ pub fn table(setup: &Setup<'_>, loaded: &Loaded, view: &View) -> anyhow::Result<
         rows: Vec::new(),
     };
     let mut rows = Vec::new();
-    for quality in Quality::ALL {
-        for method in Method::ALL {
-            let tessellation = method.tessellate(&sampler, &seen, quality)?;
-            let measured = deviation(&sampler, &seen, &tessellation)?;
-            let drawn = with_object(loaded, object_of(object, &sampler, &tessellation)?);
-            let picture = Studio::with_pipelines(&quiet, &drawn, view, &mut pipelines)?
-                .look()?
-                .pixels;
-            let decibels = psnr(&picture, &fine.pixels);
-            let triangles = tessellation.triangles.len() as u64;
-            let mut row = vec![
-                quality.to_string(),
-                method.to_string(),
-                thousands(triangles),
-                format!("{:.3}", measured.max_pixels),
-                psnr::cell(decibels),
-            ];
-            let mut equal = serde_json::Map::new();
-            for (name, curve) in &curves {
-                let found = curve.triangles(decibels);
-                let ratio = found.map(|found| triangles as f64 / found);
-                let or_dash = |text: Option<String>| text.unwrap_or_else(|| "-".to_owned());
-                row.push(or_dash(found.map(|found| thousands(found.round() as u64))));
-                row.push(or_dash(ratio.map(|ratio| format!("{ratio:.2}"))));
-                equal.insert((*name).to_owned(), json!({ "triangles": found, "ratio": ratio }));
-            }
-            rows.push(row);
-            shown.rows.push(json!({
-                "quality": quality.to_string(), "method": method.to_string(), "triangles": triangles,
-                "max_error_pixels": measured.max_pixels, "mean_error_pixels": measured.mean_pixels,
-                "psnr_db": psnr::value(decibels), "quadtree": equal,
-            }));
-            bar.inc(1);
+    for made in &made {
+        let mut row = vec![
+            made.quality.to_string(),
+            made.method.to_string(),
+            thousands(made.triangles),
+            format!("{:.3}", made.deviation.max_pixels),
+            psnr::cell(made.decibels),
+        ];
+        let mut equal = serde_json::Map::new();
+        for (name, curve) in &curves {
+            let found = curve.triangles(made.decibels);
+            let ratio = found.map(|found| made.triangles as f64 / found);
+            let or_dash = |text: Option<String>| text.unwrap_or_else(|| "-".to_owned());
+            row.push(or_dash(found.map(|found| thousands(found.round() as u64))));
+            row.push(or_dash(ratio.map(|ratio| format!("{ratio:.2}"))));
+            equal.insert((*name).to_owned(), json!({ "triangles": found, "ratio": ratio }));
         }
+        rows.push(row);
+        shown.rows.push(json!({
+            "quality": made.quality.to_string(), "method": made.method.to_string(), "triangles": made.triangles,
+            "max_error_pixels": made.deviation.max_pixels, "mean_error_pixels": made.deviation.mean_pixels,
+            "psnr_db": psnr::value(made.decibels), "quadtree": equal,
+        }));
     }
-    bar.finish_and_clear();
     let side = if back_faces == BackFaces::Drawn {
         "both sides drawn"
     } else {

@@ -8,12 +8,18 @@
 //! | `methods` | tessellations of the thesis and the quadtree (tables 3.1, 4.1, 6.15) |
 //! | `sampler` | a model of patches as the tessellators of `keyleaf-baseline` take it |
 //! | `bases` | methods for basis functions × degree |
+//! | `isolation` | subdivision surfaces: isolation × preprocessing, memory, error, time (Komar, tables 4.1, 4.6, 4.7) |
+//! | `quadratic` | QAS, PN triangles and Loop surfaces of one control mesh |
+//! | `samples` | points of a surface, and how far the GPU is off there |
 
 mod bases;
 mod culling;
+mod isolation;
 mod methods;
 mod psnr;
+mod quadratic;
 mod sampler;
+mod samples;
 mod studio;
 
 use crate::arguments::{Overrides, ReadingArguments, load_scene, parse_size};
@@ -22,7 +28,7 @@ use crate::session::{self, DeviceReport};
 use crate::{Outcome, table};
 use clap::{Args, ValueEnum};
 use glam::UVec2;
-use keyleaf_stage::{Loaded, view_of};
+use keyleaf_stage::{Loaded, LoadedObject, view_of};
 use serde::Serialize;
 use serde_json::json;
 use std::path::PathBuf;
@@ -35,15 +41,20 @@ use studio::Setup;
 /// uniform, semi-adaptive and DABT tessellations at three qualities, and the quadtree at the same PSNR (tables 3.1, 4.1, 6.15). bases:
 /// methods for basis functions × degree, milliseconds and f32 error; it needs no scene.
 ///
+/// The suite komar is for subdivision surfaces: isolation of extraordinary vertices × preprocessing, memory, error and milliseconds (tables
+/// 4.1, 4.6, 4.7). The suite qas is for control meshes of triangles: QAS, PN triangles and Loop surfaces against the limit.
+///
 /// PSNR is of the picture against one with edges of half a pixel and nothing culled. Milliseconds are the median of a frame that
 /// updates and draws.
 #[derive(Args)]
 #[command(after_help = "Examples:
   keyleaf accuracy scenes/goblet.ron --suite concheiro
   keyleaf accuracy scenes/torus.ron scenes/panels.ron --suite concheiro --table culling --size 1280x720
-  keyleaf accuracy --suite concheiro --table bases --json")]
+  keyleaf accuracy --suite concheiro --table bases --json
+  keyleaf accuracy scenes/gaussian.ron --suite komar
+  keyleaf accuracy scenes/qas.ron --suite qas")]
 pub struct Arguments {
-    /// Scene files or models with Bézier or NURBS surfaces
+    /// Scene files or models with surfaces of the kind that the suite is about
     #[arg(value_name = "SCENE", required_unless_present = "table")]
     scenes: Vec<PathBuf>,
     #[command(flatten)]
@@ -51,7 +62,7 @@ pub struct Arguments {
     /// The tables of a work
     #[arg(long, value_enum, value_name = "NAME")]
     suite: Suite,
-    /// One table of the suite [default: all]
+    /// One table of the suite concheiro [default: all]
     #[arg(long, value_enum, value_name = "TABLE")]
     table: Option<Table>,
     /// A camera of the scenes by its name; default: the first one
@@ -73,6 +84,10 @@ pub struct Arguments {
 enum Suite {
     /// Parametric surfaces on the GPU (thesis, A Coruña 2013)
     Concheiro,
+    /// Gaussian-product subdivision surfaces (thesis, 2020); for all subdivision surfaces
+    Komar,
+    /// Quadratic approximation of subdivision surfaces (Boubekeur and Schlick 2007)
+    Qas,
 }
 
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq)]
@@ -108,13 +123,17 @@ impl Shown {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
-    let Suite::Concheiro = arguments.suite;
-    let wants = |table: Table| arguments.table.is_none_or(|only| only == table);
+    let suite = arguments.suite;
+    let wants = |table: Table| suite == Suite::Concheiro && arguments.table.is_none_or(|only| only == table);
+    anyhow::ensure!(
+        suite == Suite::Concheiro || arguments.table.is_none(),
+        "--table: only the suite concheiro has several"
+    );
     // Bad input first: a device takes time to start.
     let scenes = arguments.scenes.iter().map(|file| {
         let loaded = load_scene(file, &arguments.reading, &Overrides::default(), quiet)?;
         let camera = loaded.camera(arguments.camera.as_deref())?.name.clone();
-        Ok((patches_of(loaded)?, camera))
+        Ok((shown_of(suite, loaded)?, camera))
     });
     let scenes: Vec<(Loaded, String)> = scenes.collect::<anyhow::Result<_>>()?;
     anyhow::ensure!(
@@ -145,6 +164,14 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
         if wants(Table::Methods) {
             done(methods::table(&setup, loaded, &view)?)?;
         }
+        if suite == Suite::Komar {
+            done(isolation::table(&setup, loaded, &view)?)?;
+        }
+        if suite == Suite::Qas {
+            for object in &loaded.objects {
+                done(quadratic::table(&setup, loaded, object, &view)?)?;
+            }
+        }
     }
     if wants(Table::Bases) {
         let view = view_of(&bases::view(), arguments.size);
@@ -159,6 +186,24 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
         output::print(&format!("\n{}, times {}", device.device, device.times))?;
     }
     Ok(Outcome::Done)
+}
+
+/// The scene with the surfaces that a suite is about.
+fn shown_of(suite: Suite, mut loaded: Loaded) -> anyhow::Result<Loaded> {
+    let (is_wanted, what): (fn(&LoadedObject) -> bool, _) = match suite {
+        Suite::Concheiro => return patches_of(loaded),
+        Suite::Komar => (
+            isolation::has_isolation,
+            "subdivision surface; expected one for the suite komar",
+        ),
+        Suite::Qas => (
+            quadratic::is_of_triangles,
+            "control mesh of triangles; expected one for the suite qas",
+        ),
+    };
+    loaded.objects.retain(is_wanted);
+    anyhow::ensure!(!loaded.objects.is_empty(), "{}: has no {what}", loaded.file.display());
+    Ok(loaded)
 }
 
 /// The scene with its first Bézier or NURBS surface alone.

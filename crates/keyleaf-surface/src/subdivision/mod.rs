@@ -9,9 +9,9 @@
 //! *Feature-adaptive GPU rendering of Catmull-Clark subdivision surfaces*; Brainerd et al. 2016, *Efficient GPU rendering of subdivision
 //! surfaces using adaptive quadtrees*).
 //!
-//! Faces whose rings have the same shape and sharpness share the tree and the weights of its control points; a face has only the list
-//! of the vertices of its ring. Of each patch the weights give the first control point and the differences of the others to it, so that
-//! small patches deep in a tree keep their digits.
+//! Faces whose rings have the same shape and sharpness share the tree; cells of any trees whose rings do share the weights of their
+//! children and of their control points. A face has only the list of the vertices of its ring. Of each patch there are the first control
+//! point and the differences of the others to it, so that small patches deep in a tree keep their digits.
 //!
 //! The *domain* of a quad is the unit square, that of a triangle of a Loop surface its barycentric coordinates. Another face of a
 //! Catmull-Clark surface has n domains, the quads of the first step: (0, 0) at a corner, (1, 0) in the middle of the edge after it, (1, 1)
@@ -28,7 +28,7 @@
 //! | `bspline`, `box_spline` | regular cells, evaluated |
 //! | `exact`, `cell` | points by local refinement: the truth |
 //! | `bicubic`, `quartic`, `spectrum` | patches, regular and terminal |
-//! | `tree`, `neighbourhoods` | trees, and which faces share them |
+//! | `shapes`, `tree`, `neighbourhoods` | cells that look alike, trees of them, and which faces share these |
 //! | `bezier`, `approximation` | points by patches: what the GPU draws |
 //! | `addresses`, `bound`, `tables` | what the GPU reads |
 
@@ -53,8 +53,9 @@ mod refinement;
 mod ring;
 mod scheme;
 mod sector;
+mod shapes;
 mod sharpness;
-pub(crate) mod spectrum;
+mod spectrum;
 pub(crate) mod stencil;
 pub(crate) mod tables;
 pub(crate) mod tree;
@@ -72,9 +73,7 @@ use cell::DomainPoint;
 use exact::ExactPoint;
 use glam::DVec3;
 use keyleaf_key::{HalfEdge, Place, RootPoint, Topology};
-use neighbourhoods::Neighbourhoods;
-use spectrum::Spectra;
-use tree::Grower;
+use neighbourhoods::{Evaluated, Neighbourhoods};
 
 /// The most control points of patches, for which the tables have room.
 pub(crate) const MAX_ENTRIES: usize = 1 << 28;
@@ -158,13 +157,7 @@ impl Subdivision {
         SettingError::check("isolation", f64::from(isolation), is_possible, "a number from 0 to 16")?;
         let cage = Cage::new(control, scheme)?;
         let topology = drawn_topology(&cage)?;
-        let mut grower = Grower {
-            scheme,
-            creasing: cage.creasing,
-            isolation,
-            spectra: Spectra::new(scheme),
-        };
-        let neighbourhoods = Neighbourhoods::new(&cage, &mut grower);
+        let neighbourhoods = Neighbourhoods::new(&cage, scheme, isolation);
         if neighbourhoods.entries > MAX_ENTRIES {
             return Err(SubdivisionError::TooManyPatches {
                 entries: neighbourhoods.entries,
@@ -172,8 +165,7 @@ impl Subdivision {
                 isolation,
             });
         }
-        let points = neighbourhoods.apply(&cage.positions);
-        let errors = neighbourhoods.errors(&cage.positions);
+        let Evaluated { points, errors } = neighbourhoods.evaluate(&cage.positions);
         let mut surface = Self {
             scheme,
             cage,
@@ -181,7 +173,7 @@ impl Subdivision {
             points,
             normals: Vec::new(),
             bounds: Vec::new(),
-            terminal_error: BETWEEN_SAMPLES * errors.iter().map(|error| error.length()).fold(0.0, f64::max),
+            terminal_error: BETWEEN_SAMPLES * errors.iter().map(|(_, error)| error.length()).fold(0.0, f64::max),
             topology,
         };
         surface.normals = (0..surface.topology.face_count())

@@ -110,7 +110,8 @@ impl Dual {
         Some(self.solve()?.1)
     }
 
-    fn solve(&self) -> Option<(Ldl, DVec3)> {
+    /// The factors of the precision, and the mean.
+    pub(super) fn solve(&self) -> Option<(Ldl, DVec3)> {
         let factors = Ldl::new(self.precision)?;
         let mean = factors.solve(self.information);
         let residual = self.information - self.precision * mean;
@@ -177,8 +178,13 @@ impl Vector for Dual {
         information: DVec3::ZERO,
     };
 
+    #[inline]
     fn plus(self, other: Self, weight: f64) -> Self {
-        self + other * weight
+        let mut sum = self.to_array();
+        for (sum, other) in sum.iter_mut().zip(other.to_array()) {
+            *sum += other * weight;
+        }
+        Self::from_array(sum)
     }
 }
 

@@ -4,7 +4,6 @@ use super::dual::{Dual, DualFrame, MeanJet, whitening};
 use super::patch::{DualSquare, DualTriangle};
 use super::symmetric::Symmetric3;
 use crate::subdivision::bicubic;
-use crate::subdivision::neighbourhoods::Neighbourhoods;
 use glam::{DMat3, DVec3};
 
 /// The control vertices in dual space, about their common centre.
@@ -37,7 +36,7 @@ pub struct PatchFrame {
     factor: f64,
 }
 
-/// Control points of all patches, in the order of [`Neighbourhoods`].
+/// Control points of all patches, in the order of [`Evaluated`](crate::subdivision::neighbourhoods::Evaluated).
 #[derive(Clone, Debug)]
 pub struct DualPatches {
     /// Control points a patch.
@@ -49,9 +48,8 @@ pub struct DualPatches {
 }
 
 impl DualPatches {
-    pub fn new(all: &Neighbourhoods, vertices: &DualVertices) -> Self {
-        let mut controls = all.apply(&vertices.values);
-        let size = all.control_points;
+    /// From the control points about a centre: of each patch the first, then the differences of the others to it.
+    pub fn new(size: usize, mut controls: Vec<Dual>, centre: DVec3) -> Self {
         let frames = controls
             .chunks_exact_mut(size)
             .map(|patch| {
@@ -59,7 +57,7 @@ impl DualPatches {
                 patch[1..].iter_mut().for_each(|control| *control = *control + first);
                 let own = PatchFrame::of(patch);
                 patch.iter_mut().for_each(|control| *control = own.inside(control));
-                own.moved(vertices.centre)
+                own.moved(centre)
             })
             .collect();
         Self { size, frames, controls }
@@ -140,8 +138,8 @@ impl PatchFrame {
         self
     }
 
-    /// A value of the control vertices' space in that of the patch.
-    pub fn of_vertices(&self, value: &Dual, vertices: &DualVertices) -> Dual {
-        self.moved(-vertices.centre).inside(value)
+    /// A value about a centre in the space of the patch.
+    pub fn of_vertices(&self, value: &Dual, centre: DVec3) -> Dual {
+        self.moved(-centre).inside(value)
     }
 }

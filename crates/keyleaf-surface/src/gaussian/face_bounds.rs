@@ -2,7 +2,8 @@
 
 use super::bound::{MeanBounds, Whole, of_patches};
 use super::dual_patches::DualPatches;
-use super::patch::DualNet;
+use super::lanes::{Lanes, Net, Square};
+use super::lanes_of_triangle::Triangle;
 use crate::SubdivisionScheme;
 use crate::root_bound::RootBound;
 use crate::subdivision::bezier::Slopes;
@@ -21,7 +22,9 @@ const CUTS_FOR_ANY: usize = 1000;
 const WITHOUT_BOUNDS: f64 = 8.0;
 
 /// Along the second and the third barycentric coordinate.
-const BARYCENTRIC: [[f64; 3]; 2] = [[-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]];
+const BARYCENTRIC: Triangle = Triangle {
+    directions: [[-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]],
+};
 
 /// Bounds of the roots of a face, taken alone, and of all of it.
 pub struct FaceBounds {
@@ -39,8 +42,8 @@ impl FaceBounds {
         corners: u32,
     ) -> Self {
         let bounds = match scheme {
-            SubdivisionScheme::CatmullClark => of_face(all, patches, face, [0, 1], |patch| patches.square(patch)),
-            SubdivisionScheme::Loop(_) => of_face(all, patches, face, BARYCENTRIC, |patch| patches.triangle(patch)),
+            SubdivisionScheme::CatmullClark => of_face(all, patches, face, &Square),
+            SubdivisionScheme::Loop(_) => of_face(all, patches, face, &BARYCENTRIC),
         };
         let first = all.faces[face as usize].first_entries[0];
         let slopes = |domain: usize, patch: u32| {
@@ -61,29 +64,21 @@ impl FaceBounds {
 }
 
 /// Bounds of all patches of a face, domain after domain.
-fn of_face<N: DualNet>(
-    all: &Neighbourhoods,
-    patches: &DualPatches,
-    face: u32,
-    directions: [N::Direction; 2],
-    net: impl Fn(usize) -> Option<N>,
-) -> Vec<MeanBounds> {
+fn of_face(all: &Neighbourhoods, patches: &DualPatches, face: u32, shape: &impl Net) -> Vec<MeanBounds> {
     let domains = all.trees(face).iter().zip(&all.faces[face as usize].first_entries);
-    let wholes: Vec<Whole<N>> = domains
+    let wholes: Vec<Whole> = domains
         .flat_map(|(tree, first)| {
             let numbers = first / patches.size..;
             numbers.zip(&tree.places)
         })
-        .filter_map(|(patch, place)| {
-            Some(Whole {
-                net: net(patch)?,
-                frame: patches.frames[patch].frame,
-                scale: 1.0 / place.right[0].abs(),
-            })
+        .map(|(patch, place)| Whole {
+            net: Lanes::of(patches.controls(patch)),
+            frame: patches.frames[patch].frame,
+            scale: 1.0 / place.right[0].abs(),
         })
         .collect();
     let most = [CUTS, CUTS_FOR_ANY].map(|cuts| wholes.len() + 3 * cuts);
-    let (bounds, found) = of_patches(wholes, directions, most);
+    let (bounds, found) = of_patches(shape, &wholes, most);
     let unknown = found.map_or(MeanBounds::NONE, |found| found.widened(WITHOUT_BOUNDS));
     bounds.into_iter().map(|bounds| bounds.unwrap_or(unknown)).collect()
 }

@@ -38,7 +38,9 @@
 //! | `covariance`, `covariance_mesh` | what users give; converters from plain meshes |
 //! | `symmetric`, `solve` | 3 × 3 matrices: eigenvalues, linear equations |
 //! | `dual` | to dual space and back, with derivatives |
-//! | `patch`, `bound` | Bézier patches in dual space, and their bounds |
+//! | `patch` | Bézier patches in dual space |
+//! | `bound`, `centred` | bounds of patches and of their parts |
+//! | `lanes`, `lanes_of_triangle` | their control points, number by number |
 //! | `dual_patches`, `terminal`, `face_bounds` | the patches of a surface, how far they are off, bounds of faces |
 //! | `surface`, `tables` | [`GaussianProduct`], and what the GPU reads |
 //!
@@ -56,11 +58,14 @@
 //! ```
 
 mod bound;
+mod centred;
 mod covariance;
 mod covariance_mesh;
 mod dual;
 mod dual_patches;
 mod face_bounds;
+mod lanes;
+mod lanes_of_triangle;
 mod patch;
 mod solve;
 mod surface;

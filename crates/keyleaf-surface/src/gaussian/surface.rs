@@ -15,8 +15,6 @@ use crate::subdivision::cage::Cage;
 use crate::subdivision::cell::{DomainPoint, TrianglePoint};
 use crate::subdivision::exact::{self, ExactPoint};
 use crate::subdivision::neighbourhoods::Neighbourhoods;
-use crate::subdivision::spectrum::Spectra;
-use crate::subdivision::tree::Grower;
 use crate::subdivision::{MAX_ENTRIES, MAX_ISOLATION, drawn_topology, face_coord};
 use crate::{
     ParameterError, SettingError, SubdivisionError, SubdivisionScheme, Surface, SurfaceBound, SurfaceFrame,
@@ -113,13 +111,7 @@ impl GaussianProduct {
         SettingError::check("isolation", f64::from(isolation), is_possible, "a number from 0 to 16")?;
         let cage = Cage::new(mesh.control(), scheme)?;
         let topology = drawn_topology(&cage)?;
-        let mut grower = Grower {
-            scheme,
-            creasing: cage.creasing,
-            isolation,
-            spectra: Spectra::new(scheme),
-        };
-        let neighbourhoods = Neighbourhoods::new(&cage, &mut grower);
+        let neighbourhoods = Neighbourhoods::new(&cage, scheme, isolation);
         let entries = neighbourhoods.entries / neighbourhoods.control_points * tables::entries_of_patch(scheme);
         if entries > MAX_ENTRIES {
             return Err(SubdivisionError::TooManyPatches {
@@ -130,10 +122,11 @@ impl GaussianProduct {
         }
         let precisions = common_unit(mesh);
         let vertices = DualVertices::new(&cage.positions, &precisions);
-        let patches = DualPatches::new(&neighbourhoods, &vertices);
+        let dual = neighbourhoods.evaluate(&vertices.values);
+        let patches = DualPatches::new(neighbourhoods.control_points, dual.points, vertices.centre);
         let mut surface = Self {
             settings,
-            terminal_error: terminal::error(&neighbourhoods, &patches, &vertices),
+            terminal_error: terminal::error(&patches, &dual.errors, vertices.centre),
             frames: ring_frames(&neighbourhoods, &cage.positions, &precisions),
             normals: Vec::new(),
             bounds: Vec::new(),

@@ -96,7 +96,7 @@ impl Symmetric3 {
     /// Tᵀ S T.
     pub fn congruent(self, t: DMat3) -> Self {
         let [a, b, c] = [t.x_axis, t.y_axis, t.z_axis];
-        let [sa, sb, sc] = [a, b, c].map(|column| self * column);
+        let (sa, sb, sc) = (self * a, self * b, self * c);
         Self::from_array([a.dot(sa), a.dot(sb), a.dot(sc), b.dot(sb), b.dot(sc), c.dot(sc)])
     }
 
@@ -129,8 +129,8 @@ fn rotate(a: &mut [[f64; 3]; 3], vectors: &mut [DVec3; 3], p: usize, q: usize) {
         return;
     }
     let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-    let tangent = theta.signum() / (theta.abs() + theta.hypot(1.0));
-    let cosine = 1.0 / tangent.hypot(1.0);
+    let tangent = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
+    let cosine = 1.0 / (tangent * tangent + 1.0).sqrt();
     let sine = tangent * cosine;
     let off = a[p][q];
     let k = 3 - p - q;
@@ -158,8 +158,14 @@ impl Add for Symmetric3 {
     type Output = Self;
 
     fn add(self, other: Self) -> Self {
-        let (a, b) = (self.to_array(), other.to_array());
-        Self::from_array(std::array::from_fn(|k| a[k] + b[k]))
+        Self {
+            xx: self.xx + other.xx,
+            xy: self.xy + other.xy,
+            xz: self.xz + other.xz,
+            yy: self.yy + other.yy,
+            yz: self.yz + other.yz,
+            zz: self.zz + other.zz,
+        }
     }
 }
 
@@ -175,7 +181,14 @@ impl Mul<f64> for Symmetric3 {
     type Output = Self;
 
     fn mul(self, factor: f64) -> Self {
-        Self::from_array(self.to_array().map(|x| x * factor))
+        Self {
+            xx: self.xx * factor,
+            xy: self.xy * factor,
+            xz: self.xz * factor,
+            yy: self.yy * factor,
+            yz: self.yz * factor,
+            zz: self.zz * factor,
+        }
     }
 }
 
@@ -183,7 +196,8 @@ impl Mul<DVec3> for Symmetric3 {
     type Output = DVec3;
 
     fn mul(self, v: DVec3) -> DVec3 {
-        DVec3::from_array(self.rows().map(|row| row.dot(v)))
+        let [x, y, z] = self.rows();
+        DVec3::new(x.dot(v), y.dot(v), z.dot(v))
     }
 }
 

@@ -1,39 +1,32 @@
 //! How far terminal patches are from the limit surface.
 
 use super::dual::Dual;
-use super::dual_patches::{DualPatches, DualVertices};
+use super::dual_patches::DualPatches;
+use super::solve::Ldl;
 use crate::subdivision::BETWEEN_SAMPLES;
-use crate::subdivision::exact::Located;
-use crate::subdivision::neighbourhoods::Neighbourhoods;
-use crate::subdivision::stencil::Vector;
+use glam::DVec3;
 
 /// The greatest distance at samples of the terminal patches, with room for what is between them; object units.
 ///
-/// The trees have the errors of samples in dual space. In space they are what they are at the corner of the patch where they count most.
-pub fn error(all: &Neighbourhoods, patches: &DualPatches, vertices: &DualVertices) -> f64 {
+/// `errors` are those of samples in dual space about a centre, with their patches. In space they are what they are at the corner of the
+/// patch where they count most.
+pub fn error(patches: &DualPatches, errors: &[(u32, Dual)], centre: DVec3) -> f64 {
     let mut greatest: f64 = 0.0;
-    for face in &all.faces {
-        let ring = || face.vertices.iter().map(|&vertex| vertices.values[vertex as usize]);
-        for (tree, first) in all.kinds[face.kind as usize].iter().zip(&face.first_entries) {
-            let rows = tree.errors.chunks_exact(tree.width).zip(&tree.error_patches);
-            for (row, &patch) in rows {
-                // Rows sum to zero.
-                let origin = ring().next().unwrap_or_default();
-                let terms = ring().zip(row);
-                let missed = terms.fold(Dual::ZERO, |sum, (value, &weight)| sum.plus(value - origin, weight));
-                let patch = first / patches.size + patch as usize;
-                greatest = greatest.max(in_space(patches, vertices, patch, &missed));
-            }
+    for samples in errors.chunk_by(|a, b| a.0 == b.0) {
+        let patch = samples[0].0 as usize;
+        let own = &patches.frames[patch];
+        let corners = patches.corners().iter();
+        let corners: Vec<_> = corners
+            .filter_map(|&corner| patches.controls(patch)[corner].solve())
+            .collect();
+        for (_, missed) in samples {
+            let missed = own.of_vertices(missed, centre);
+            let motion = |(factors, mean): &(Ldl, DVec3)| {
+                let rate = factors.solve(missed.information - missed.precision * *mean);
+                (own.frame.axes * rate).length()
+            };
+            greatest = corners.iter().map(motion).fold(greatest, f64::max);
         }
     }
     BETWEEN_SAMPLES * greatest
-}
-
-/// The greatest motion of a corner of a patch whose value changes so.
-fn in_space(patches: &DualPatches, vertices: &DualVertices, patch: usize, missed: &Dual) -> f64 {
-    let own = &patches.frames[patch];
-    let missed = own.of_vertices(missed, vertices);
-    let controls = patches.controls(patch);
-    let motion = |&corner: &usize| (own.frame.axes * controls[corner].motion(missed)).length();
-    patches.corners().iter().map(motion).fold(0.0, f64::max)
 }

@@ -50,11 +50,8 @@ pub fn regular_corner(ring: &Ring, corner: usize) -> Option<CornerNet> {
 
 /// The control points of a regular cell.
 pub fn regular(ring: &Ring) -> Option<Vec<Stencil>> {
-    let corners = [0, 1, 2, 3].map(|corner| regular_corner(ring, corner));
-    let [Some(a), Some(b), Some(c), Some(d)] = corners else {
-        return None;
-    };
-    Some(assembled([a, b, c, d]))
+    let corner = |corner| regular_corner(ring, corner);
+    Some(assembled([corner(0)?, corner(1)?, corner(2)?, corner(3)?]))
 }
 
 fn assembled([a, b, c, d]: [CornerNet; 4]) -> Vec<Stencil> {

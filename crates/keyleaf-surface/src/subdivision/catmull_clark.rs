@@ -1,7 +1,7 @@
 //! The rules of Catmull and Clark (1978) with those of DeRose, Kass and Truong (1998) for creases.
 
 use super::Creasing;
-use super::refinement::{Child, Masks, Refinement, centroid, crease_mask};
+use super::refinement::{Child, Children, Masks, Refinement, SharedChild, centroid, crease_mask};
 use super::ring::{Fan, Ring, Spoke};
 use super::sharpness::VertexRule;
 use super::stencil::Stencil;
@@ -51,22 +51,30 @@ type Step<'a> = Refinement<'a, CatmullClark>;
 /// that corner. Of other faces it is corner 0, and corner 2 is the centre.
 pub fn child(ring: &Ring, corner: usize, creasing: Creasing) -> Child {
     let mut step = Refinement::new(ring, creasing, &CatmullClark);
-    let corners = ring.fans.len();
+    let child = shared_child(&mut step, corner);
+    step.children([child]).into()
+}
+
+/// The children of a quad at its corners.
+pub fn children(ring: &Ring, creasing: Creasing) -> Children<4> {
+    let mut step = Refinement::new(ring, creasing, &CatmullClark);
+    let children = [0, 1, 2, 3].map(|corner| shared_child(&mut step, corner));
+    step.children(children)
+}
+
+fn shared_child(step: &mut Step<'_>, corner: usize) -> SharedChild {
+    let corners = step.ring.fans.len();
     let previous = (corner + corners - 1) % corners;
-    let own = ring.fans[corner].own;
-    child_face(&mut step, corner, own);
+    let own = step.ring.fans[corner].own;
+    child_face(step, corner, own);
     let fans = vec![
-        fan_of_corner(&mut step, corner),
-        fan_of_edge(&mut step, corner, corner),
-        fan_of_centre(&mut step, corner),
-        fan_of_edge(&mut step, previous, corner),
+        fan_of_corner(step, corner),
+        fan_of_edge(step, corner, corner),
+        fan_of_centre(step, corner),
+        fan_of_edge(step, previous, corner),
     ];
     let turns = if corners == 4 { corner } else { 0 };
-    let Child { ring, stencils } = step.finish(fans);
-    Child {
-        ring: ring.turned(turns),
-        stencils,
-    }
+    step.finish(fans).turned(turns)
 }
 
 /// The child at a corner of the face at a place of the corner's fan.

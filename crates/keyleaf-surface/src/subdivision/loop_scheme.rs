@@ -1,7 +1,7 @@
 //! The rules of Loop (1987) with creases as in Catmull-Clark subdivision (Hoppe et al. 1994).
 
 use super::Creasing;
-use super::refinement::{Child, Masks, Refinement, crease_mask};
+use super::refinement::{Child, Children, Masks, Refinement, SharedChild, crease_mask};
 use super::ring::{Fan, Ring, Spoke};
 use super::sharpness::VertexRule;
 use super::stencil::Stencil;
@@ -57,25 +57,35 @@ pub enum Part {
 pub fn child(ring: &Ring, part: Part, weights: LoopWeights, creasing: Creasing) -> Child {
     let masks = LoopScheme(weights);
     let mut step = Refinement::new(ring, creasing, &masks);
+    let child = shared_child(&mut step, part);
+    step.children([child]).into()
+}
+
+/// The children at the corners, then the one in the middle.
+pub fn children(ring: &Ring, weights: LoopWeights, creasing: Creasing) -> Children<4> {
+    let masks = LoopScheme(weights);
+    let mut step = Refinement::new(ring, creasing, &masks);
+    let parts = [Part::Corner(0), Part::Corner(1), Part::Corner(2), Part::Middle];
+    let children = parts.map(|part| shared_child(&mut step, part));
+    step.children(children)
+}
+
+fn shared_child(step: &mut Step<'_>, part: Part) -> SharedChild {
     let corner = match part {
         Part::Middle => {
-            middle_of_own(&mut step);
-            let fans = [1, 2, 0].map(|start| fan_of_edge(&mut step, start, 1));
+            middle_of_own(step);
+            let fans = [1, 2, 0].map(|start| fan_of_edge(step, start, 1));
             return step.finish(fans.to_vec());
         }
         Part::Corner(corner) => corner,
     };
-    child_face(&mut step, corner, ring.fans[corner].own);
+    child_face(step, corner, step.ring.fans[corner].own);
     let fans = vec![
-        fan_of_corner(&mut step, corner),
-        fan_of_edge(&mut step, corner, 2),
-        fan_of_edge(&mut step, (corner + 2) % 3, 0),
+        fan_of_corner(step, corner),
+        fan_of_edge(step, corner, 2),
+        fan_of_edge(step, (corner + 2) % 3, 0),
     ];
-    let Child { ring, stencils } = step.finish(fans);
-    Child {
-        ring: ring.turned(corner),
-        stencils,
-    }
+    step.finish(fans).turned(corner)
 }
 
 /// The child at a corner of the face at a place of the corner's fan.

@@ -9,9 +9,9 @@
 //! *Feature-adaptive GPU rendering of Catmull-Clark subdivision surfaces*; Brainerd et al. 2016, *Efficient GPU rendering of subdivision
 //! surfaces using adaptive quadtrees*).
 //!
-//! Faces whose rings have the same shape and sharpness share the tree and the weights of its control points; a face has only the list
-//! of the vertices of its ring. Of each patch the weights give the first control point and the differences of the others to it, so that
-//! small patches deep in a tree keep their digits.
+//! Faces whose rings have the same shape and sharpness share the tree; cells of any trees whose rings do share the weights of their
+//! children and of their control points. A face has only the list of the vertices of its ring. Of each patch there are the first control
+//! point and the differences of the others to it, so that small patches deep in a tree keep their digits.
 //!
 //! The *domain* of a quad is the unit square, that of a triangle of a Loop surface its barycentric coordinates. Another face of a
 //! Catmull-Clark surface has n domains, the quads of the first step: (0, 0) at a corner, (1, 0) in the middle of the edge after it, (1, 1)
@@ -28,7 +28,7 @@
 //! | `bspline`, `box_spline` | regular cells, evaluated |
 //! | `exact`, `cell` | points by local refinement: the truth |
 //! | `bicubic`, `quartic`, `spectrum` | patches, regular and terminal |
-//! | `tree`, `neighbourhoods` | trees, and which faces share them |
+//! | `shapes`, `tree`, `neighbourhoods` | cells that look alike, trees of them, and which faces share these |
 //! | `bezier`, `approximation` | points by patches: what the GPU draws |
 //! | `addresses`, `bound`, `tables` | what the GPU reads |
 //! | `pose` | what it reads to move |
@@ -55,8 +55,9 @@ mod refinement;
 mod ring;
 mod scheme;
 mod sector;
+mod shapes;
 mod sharpness;
-pub(crate) mod spectrum;
+mod spectrum;
 pub(crate) mod stencil;
 pub(crate) mod tables;
 pub(crate) mod tree;
@@ -76,9 +77,7 @@ use cell::DomainPoint;
 use exact::ExactPoint;
 use glam::DVec3;
 use keyleaf_key::{HalfEdge, Place, RootPoint, Topology};
-use neighbourhoods::Neighbourhoods;
-use spectrum::Spectra;
-use tree::Grower;
+use neighbourhoods::{Evaluated, Neighbourhoods};
 
 /// The most control points of patches, for which the tables have room.
 pub(crate) const MAX_ENTRIES: usize = 1 << 28;
@@ -164,13 +163,7 @@ impl Subdivision {
         SettingError::check("isolation", f64::from(isolation), is_possible, "a number from 0 to 16")?;
         let cage = Cage::new(control, scheme)?;
         let topology = drawn_topology(&cage)?;
-        let mut grower = Grower {
-            scheme,
-            creasing: cage.creasing,
-            isolation,
-            spectra: Spectra::new(scheme),
-        };
-        let neighbourhoods = Neighbourhoods::new(&cage, &mut grower);
+        let neighbourhoods = Neighbourhoods::new(&cage, scheme, isolation);
         if neighbourhoods.entries > MAX_ENTRIES {
             return Err(SubdivisionError::TooManyPatches {
                 entries: neighbourhoods.entries,
@@ -189,9 +182,7 @@ impl Subdivision {
             extent: (DVec3::INFINITY, DVec3::NEG_INFINITY),
             topology,
         };
-        surface.points = surface.neighbourhoods.apply(&surface.cage.positions);
-        surface.allow_for_pose();
-        surface.follow_points();
+        surface.follow_cage();
         Ok(surface)
     }
 
@@ -201,9 +192,7 @@ impl Subdivision {
         fits.then(|| {
             let mut posed = self.clone();
             posed.cage.positions = positions.to_vec();
-            posed.points = posed.neighbourhoods.apply(positions);
-            posed.allow_for_pose();
-            posed.follow_points();
+            posed.follow_cage();
             posed
         })
     }
@@ -217,21 +206,18 @@ impl Subdivision {
         }
     }
 
-    /// Widens the box and the error of terminal patches to those of the present control points.
-    fn allow_for_pose(&mut self) {
-        let errors = self.neighbourhoods.errors(&self.cage.positions);
-        let error = BETWEEN_SAMPLES * errors.iter().map(|error| error.length()).fold(0.0, f64::max);
+    /// Control points, normals and bounds of the present control mesh. The box and the error of terminal patches only grow.
+    fn follow_cage(&mut self) {
+        let Evaluated { points, errors } = self.neighbourhoods.evaluate(&self.cage.positions);
+        let error = BETWEEN_SAMPLES * errors.iter().map(|(_, error)| error.length()).fold(0.0, f64::max);
         self.terminal_error = self.terminal_error.max(error);
-        for patch in self.points.chunks_exact(self.neighbourhoods.control_points) {
+        for patch in points.chunks_exact(self.neighbourhoods.control_points) {
             for (k, &point) in patch.iter().enumerate() {
                 let point = if k == 0 { point } else { patch[0] + point };
                 self.extent = (self.extent.0.min(point), self.extent.1.max(point));
             }
         }
-    }
-
-    /// Normals and bounds of the present control points.
-    fn follow_points(&mut self) {
+        self.points = points;
         self.normals = (0..self.topology.face_count())
             .map(|face| self.mean_normal(face))
             .collect();

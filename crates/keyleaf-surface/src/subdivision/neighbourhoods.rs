@@ -1,8 +1,10 @@
 //! Faces by what their neighbourhood looks like: those that look alike share trees and weights.
 
+use super::SubdivisionScheme;
 use super::cage::{Cage, Placed};
+use super::shapes::{Shape, Shapes};
 use super::stencil::Vector;
-use super::tree::{Grower, Tree};
+use super::tree::{Grower, Node, Tree};
 use std::collections::HashMap;
 
 /// The trees of a kind of neighbourhood, one a domain.
@@ -26,6 +28,8 @@ pub struct Neighbourhoods {
     pub control_points: usize,
     /// The kinds.
     pub kinds: Vec<Kind>,
+    /// The shapes of the nodes of their trees.
+    shapes: Vec<Shape>,
     /// The faces of the surface.
     pub faces: Vec<FaceRing>,
     /// Control points of all patches of all faces.
@@ -33,8 +37,13 @@ pub struct Neighbourhoods {
 }
 
 impl Neighbourhoods {
-    pub fn new(cage: &Cage, grower: &mut Grower) -> Self {
-        let control_points = grower.scheme.control_points();
+    pub fn new(cage: &Cage, scheme: SubdivisionScheme, isolation: u32) -> Self {
+        let control_points = scheme.control_points();
+        let mut grower = Grower {
+            scheme,
+            isolation,
+            shapes: Shapes::new(scheme, cage.creasing),
+        };
         let mut kinds: Vec<Kind> = Vec::new();
         let mut known: HashMap<Vec<u64>, u32> = HashMap::new();
         let mut faces = Vec::with_capacity(cage.drawn.len());
@@ -68,6 +77,7 @@ impl Neighbourhoods {
         Self {
             control_points,
             kinds,
+            shapes: grower.shapes.into_all(),
             faces,
             entries,
         }
@@ -78,49 +88,87 @@ impl Neighbourhoods {
         &self.kinds[self.faces[face as usize].kind as usize]
     }
 
-    /// The control points of all patches from the values of the control vertices: face after face, domain after domain, patch after patch.
-    /// Of each patch the first, then the differences of the others to it.
-    pub fn apply<V: Vector>(&self, values: &[V]) -> Vec<V> {
-        let mut points = Vec::with_capacity(self.entries);
-        self.for_every_row(
-            values,
-            |tree| &tree.rows,
-            |first, point| {
-                // Rows of differences sum to zero.
-                let is_first = points.len() % self.control_points == 0;
-                points.push(if is_first { first.plus(point, 1.0) } else { point });
-            },
-        );
-        points
-    }
-
-    /// The errors at the samples of all terminal patches.
-    pub fn errors<V: Vector>(&self, values: &[V]) -> Vec<V> {
-        let mut errors = Vec::new();
-        self.for_every_row(values, |tree| &tree.errors, |_, error| errors.push(error));
-        errors
-    }
-
-    /// Sums of values relative to the first of their ring, which keeps the digits of what is far from zero.
-    fn for_every_row<V: Vector>(&self, values: &[V], rows: impl Fn(&Tree) -> &Vec<f64>, mut emit: impl FnMut(V, V)) {
-        let mut own = Vec::new();
+    /// What the patches are for these values of the control vertices.
+    pub fn evaluate<V: Vector>(&self, values: &[V]) -> Evaluated<V> {
+        let mut all = Evaluated {
+            points: Vec::with_capacity(self.entries),
+            errors: Vec::new(),
+        };
+        let mut ring = Vec::new();
         for face in &self.faces {
-            let first = values[face.vertices[0] as usize];
-            own.clear();
-            own.extend(
-                face.vertices
-                    .iter()
-                    .map(|&vertex| values[vertex as usize].plus(first, -1.0)),
-            );
-            for tree in &self.kinds[face.kind as usize] {
-                for row in rows(tree).chunks_exact(tree.width) {
-                    let terms = own.iter().zip(row);
-                    emit(
-                        first,
-                        terms.fold(V::ZERO, |sum, (&value, &weight)| sum.plus(value, weight)),
-                    );
-                }
-            }
+            ring.clear();
+            ring.extend(face.vertices.iter().map(|&vertex| values[vertex as usize]));
+            self.evaluate_face(face.kind, &ring, &mut all);
+        }
+        all
+    }
+
+    /// The control points of a kind as rows of weights of the vertices of the ring, which has `width`: those of a patch together, as
+    /// [`Evaluated::points`].
+    pub fn rows(&self, kind: u32, width: usize) -> Vec<f64> {
+        let columns: Vec<Vec<f64>> = (0..width)
+            .map(|vertex| {
+                let ring: Vec<f64> = (0..width).map(|k| if k == vertex { 1.0 } else { 0.0 }).collect();
+                let mut all = Evaluated {
+                    points: Vec::new(),
+                    errors: Vec::new(),
+                };
+                self.evaluate_face(kind, &ring, &mut all);
+                all.points
+            })
+            .collect();
+        let entries = columns.first().map_or(0, Vec::len);
+        (0..entries)
+            .flat_map(|entry| columns.iter().map(move |column| column[entry]))
+            .collect()
+    }
+
+    fn evaluate_face<V: Vector>(&self, kind: u32, ring: &[V], all: &mut Evaluated<V>) {
+        for tree in &self.kinds[kind as usize] {
+            let ring = match &tree.entry {
+                Some(entry) => entry.apply(ring).collect(),
+                None => ring.to_vec(),
+            };
+            self.evaluate_node(tree, 0, V::ZERO, ring, all);
         }
     }
+
+    /// `ring` has the values of a cell's vertices relative to `origin`. They are taken relative to the first of them, so that small cells
+    /// keep their digits.
+    fn evaluate_node<V: Vector>(&self, tree: &Tree, node: usize, origin: V, mut ring: Vec<V>, all: &mut Evaluated<V>) {
+        let shift = ring[0];
+        let origin = origin.plus(shift, 1.0);
+        ring.iter_mut().for_each(|value| *value = value.plus(shift, -1.0));
+        let Shape { split, patch, .. } = &self.shapes[tree.shapes[node] as usize];
+        match (tree.nodes[node], split, patch) {
+            (Node::Children(first), Some(split), _) => {
+                let points: Vec<V> = split.points.apply(&ring).collect();
+                for (child, node) in split.children.iter().zip(first as usize..) {
+                    let ring = child.vertices.iter().map(|&vertex| points[vertex as usize]).collect();
+                    self.evaluate_node(tree, node, origin, ring, all);
+                }
+            }
+            (_, _, Some(patch)) => {
+                let number = (all.points.len() / self.control_points) as u32;
+                let mut controls = patch.controls.apply(&ring);
+                let first = controls.next().unwrap_or(V::ZERO);
+                all.points.push(origin.plus(first, 1.0));
+                all.points.extend(controls.map(|control| control.plus(first, -1.0)));
+                all.errors
+                    .extend(patch.errors.apply(&ring).map(|error| (number, error)));
+            }
+            // A node is a patch only if its shape has one, and has children only if its shape has been split.
+            _ => {}
+        }
+    }
+}
+
+/// Control points and errors for values of the control vertices.
+#[derive(Clone, Debug)]
+pub struct Evaluated<V> {
+    /// The control points of all patches: face after face, domain after domain, patch after patch. Of each patch the first, then the
+    /// differences of the others to it.
+    pub points: Vec<V>,
+    /// At the samples of all terminal patches, with the number of the patch.
+    pub errors: Vec<(u32, V)>,
 }

@@ -117,25 +117,25 @@ impl Kinds {
             rows: Vec::new(),
             rows_of: Vec::new(),
         };
-        let corners = corners_of_kinds(all, surface.topology());
-        for (kind, corners) in all.kinds.iter().zip(corners) {
+        let sizes = sizes_of_kinds(all, surface.topology());
+        for (number, (kind, [corners, width])) in (0..).zip(all.kinds.iter().zip(sizes)) {
             kinds.records.push((first + kinds.words.len()) as u32);
             kinds.rows_of.push(kinds.rows.len() as u32);
             kinds.words.extend(record(kind, surface.scheme, corners));
-            let rows = kind.iter().flat_map(|tree| &tree.rows);
-            kinds.rows.extend(rows.map(|&weight| weight as f32));
+            let rows = all.rows(number, width);
+            kinds.rows.extend(rows.iter().map(|&weight| weight as f32));
         }
         kinds
     }
 }
 
-/// How many corners the faces of each kind have.
-fn corners_of_kinds(all: &Neighbourhoods, topology: &Topology) -> Vec<usize> {
-    let mut corners = vec![0; all.kinds.len()];
+/// How many corners the faces of each kind have, and how many vertices their rings.
+fn sizes_of_kinds(all: &Neighbourhoods, topology: &Topology) -> Vec<[usize; 2]> {
+    let mut sizes = vec![[0; 2]; all.kinds.len()];
     for (number, face) in (0..).zip(&all.faces) {
-        corners[face.kind as usize] = topology.corner_count(number) as usize;
+        sizes[face.kind as usize] = [topology.corner_count(number) as usize, face.vertices.len()];
     }
-    corners
+    sizes
 }
 
 /// The record of a kind.

@@ -74,11 +74,8 @@ pub fn regular_corner(ring: &Ring, corner: usize) -> Option<CornerNet> {
 
 /// The control points of a regular cell.
 pub fn regular(ring: &Ring) -> Option<Vec<Stencil>> {
-    let corners = [0, 1, 2].map(|corner| regular_corner(ring, corner));
-    let [Some(a), Some(b), Some(c)] = corners else {
-        return None;
-    };
-    Some(assembled([a, b, c]))
+    let corner = |corner| regular_corner(ring, corner);
+    Some(assembled([corner(0)?, corner(1)?, corner(2)?]))
 }
 
 fn assembled(corners: [CornerNet; 3]) -> Vec<Stencil> {

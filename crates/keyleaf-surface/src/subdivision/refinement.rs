@@ -23,6 +23,21 @@ pub struct Child {
     pub stencils: Vec<Stencil>,
 }
 
+impl From<Children<1>> for Child {
+    /// The points of one child are its vertices, in their order.
+    fn from(
+        Children {
+            points,
+            children: [child],
+        }: Children<1>,
+    ) -> Self {
+        Self {
+            ring: child.ring,
+            stencils: points,
+        }
+    }
+}
+
 impl Child {
     /// A sum of vertices of the child as one of vertices of the parent.
     pub fn over_parent(&self, stencil: &Stencil) -> Stencil {
@@ -35,6 +50,33 @@ impl Child {
     }
 }
 
+/// Some children of a ring, and the points that their vertices are, each once.
+#[derive(Debug)]
+pub struct Children<const N: usize> {
+    /// Sums of vertices of the parent.
+    pub points: Vec<Stencil>,
+    /// The children.
+    pub children: [SharedChild; N],
+}
+
+/// One of the children that share points.
+#[derive(Debug)]
+pub struct SharedChild {
+    pub ring: Ring,
+    /// The points that its vertices are.
+    pub vertices: Vec<u32>,
+}
+
+impl SharedChild {
+    /// The same with the corners numbered from another one: corner 0 becomes corner `turns`.
+    pub fn turned(self, turns: usize) -> Self {
+        Self {
+            ring: self.ring.turned(turns),
+            ..self
+        }
+    }
+}
+
 /// Masks of a scheme.
 pub trait Masks {
     /// The point of the corner of a fan.
@@ -44,15 +86,18 @@ pub trait Masks {
     fn edge(&self, ring: &Ring, ends: [u32; 2], faces: [u32; 2]) -> Stencil;
 }
 
-/// A child in the making. Vertices and faces are numbered as they are asked for.
+/// Children in the making, one after the other. Vertices and faces of a child are numbered as they are asked for.
 pub struct Refinement<'a, M> {
     pub ring: &'a Ring,
     creasing: Creasing,
     masks: &'a M,
     /// Sharpness of the near halves of the spokes of every corner.
     near_halves: Vec<Vec<f64>>,
+    /// Of the points of all children.
     sources: Vec<Source>,
-    stencils: Vec<Stencil>,
+    points: Vec<Stencil>,
+    /// The points that the vertices of this child are.
+    vertices: Vec<u32>,
     face_keys: Vec<[usize; 3]>,
     faces: Vec<Vec<u32>>,
 }
@@ -69,31 +114,47 @@ impl<'a, M: Masks> Refinement<'a, M> {
                 .map(|fan| fan.subdivided_sharpnesses(creasing))
                 .collect(),
             sources: Vec::new(),
-            stencils: Vec::new(),
+            points: Vec::new(),
+            vertices: Vec::new(),
             face_keys: Vec::new(),
             faces: Vec::new(),
         }
     }
 
-    /// The child whose corners have these fans.
-    pub fn finish(self, fans: Vec<Fan>) -> Child {
-        Child {
+    /// The child whose corners have these fans. What is asked for after that belongs to another one.
+    pub fn finish(&mut self, fans: Vec<Fan>) -> SharedChild {
+        self.face_keys.clear();
+        let vertices = std::mem::take(&mut self.vertices);
+        SharedChild {
             ring: Ring {
-                vertex_count: self.stencils.len(),
-                faces: self.faces,
+                vertex_count: vertices.len(),
+                faces: std::mem::take(&mut self.faces),
                 fans,
             },
-            stencils: self.stencils,
+            vertices,
+        }
+    }
+
+    /// All that has been made.
+    pub fn children<const N: usize>(self, children: [SharedChild; N]) -> Children<N> {
+        Children {
+            points: self.points,
+            children,
         }
     }
 
     fn vertex(&mut self, source: Source, stencil: impl FnOnce(&Self) -> Stencil) -> u32 {
         let known = self.sources.iter().position(|&known| known == source);
-        known.unwrap_or_else(|| {
+        let point = known.unwrap_or_else(|| {
             let stencil = stencil(self);
             self.sources.push(source);
-            self.stencils.push(stencil);
-            self.stencils.len() - 1
+            self.points.push(stencil);
+            self.points.len() - 1
+        }) as u32;
+        let known = self.vertices.iter().position(|&known| known == point);
+        known.unwrap_or_else(|| {
+            self.vertices.push(point);
+            self.vertices.len() - 1
         }) as u32
     }
 

@@ -97,3 +97,44 @@ impl Stencil {
         sum
     }
 }
+
+/// Stencils one after the other, in flat arrays.
+#[derive(Clone, Debug, Default)]
+pub struct Stencils {
+    terms: Vec<(u32, f64)>,
+    /// Where each of them ends.
+    ends: Vec<u32>,
+}
+
+impl Stencils {
+    /// Their sums of values by vertex.
+    pub fn apply<'a, V: Vector>(&'a self, values: &'a [V]) -> impl Iterator<Item = V> + 'a {
+        let mut first = 0;
+        self.ends.iter().map(move |&end| {
+            let terms = &self.terms[std::mem::replace(&mut first, end as usize)..end as usize];
+            // Two sums, so that a term need not wait for the one before.
+            let mut sums = [V::ZERO; 2];
+            let mut pairs = terms.chunks_exact(2);
+            for pair in &mut pairs {
+                let [(a, weight), (b, other)] = [pair[0], pair[1]];
+                sums[0] = sums[0].plus(values[a as usize], weight);
+                sums[1] = sums[1].plus(values[b as usize], other);
+            }
+            for &(vertex, weight) in pairs.remainder() {
+                sums[0] = sums[0].plus(values[vertex as usize], weight);
+            }
+            sums[0].plus(sums[1], 1.0)
+        })
+    }
+}
+
+impl<'a> FromIterator<&'a Stencil> for Stencils {
+    fn from_iter<I: IntoIterator<Item = &'a Stencil>>(stencils: I) -> Self {
+        let mut all = Self::default();
+        for stencil in stencils {
+            all.terms.extend(&stencil.0);
+            all.ends.push(all.terms.len() as u32);
+        }
+        all
+    }
+}

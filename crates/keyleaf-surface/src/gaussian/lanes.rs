@@ -1,0 +1,329 @@
+//! Nets of control points in dual space, number by number: loops over all control points are short, straight, and done two or more at a
+//! time by any processor.
+
+use super::dual::{Dual, DualFrame};
+use super::symmetric::Symmetric3;
+use glam::{DMat3, DVec3};
+
+/// The numbers (q̂ xx, xy, xz, yy, yz, zz, q̄ x, y, z), each of N control points. Where a net has fewer, the last ones repeat the first.
+#[derive(Clone, Copy, Debug)]
+pub struct Lanes<const N: usize>(pub [[f64; N]; 9]);
+
+/// As many as patches have.
+pub const CONTROLS: usize = 16;
+
+/// As many as their first derivatives have.
+pub const FIRST: usize = 12;
+
+/// As many as their second derivatives have.
+pub const SECOND: usize = 10;
+
+/// How patches of one shape are differentiated and cut.
+pub trait Net {
+    /// What the control points count in the middle.
+    const MIDDLE: [f64; CONTROLS];
+    /// The same of derivatives along both directions.
+    const MIDDLE_OF_FIRST: [[f64; FIRST]; 2];
+    /// The same of derivatives along the first direction twice, both, and the second twice.
+    const MIDDLE_OF_SECOND: [[f64; SECOND]; 3];
+
+    /// The derivatives along both directions.
+    fn first(&self, net: &Lanes<CONTROLS>) -> [Lanes<FIRST>; 2];
+    /// From these, the derivatives along the first direction twice, both, and the second twice.
+    fn second(&self, first: &[Lanes<FIRST>; 2]) -> [Lanes<SECOND>; 3];
+    /// Four parts, in parameters half as long; these may run backwards.
+    fn quarters(&self, net: &Lanes<CONTROLS>) -> [Lanes<CONTROLS>; 4];
+}
+
+impl Lanes<CONTROLS> {
+    /// Of these control points.
+    pub fn of(controls: &[Dual]) -> Self {
+        let first = controls.first().copied().unwrap_or_default().to_array();
+        let mut lanes = Self(first.map(|number| [number; CONTROLS]));
+        for (k, control) in controls.iter().take(CONTROLS).enumerate() {
+            for (lane, number) in lanes.0.iter_mut().zip(control.to_array()) {
+                lane[k] = number;
+            }
+        }
+        lanes
+    }
+}
+
+impl<const N: usize> Lanes<N> {
+    /// A control point.
+    pub fn control(&self, k: usize) -> Dual {
+        Dual::from_array(self.0.map(|lane| lane[k]))
+    }
+
+    /// With every lane mapped: the second argument is what the first becomes.
+    pub fn map<const M: usize>(&self, f: impl Fn(&[f64; N], &mut [f64; M])) -> Lanes<M> {
+        let mut mapped = Lanes([[0.0; M]; 9]);
+        for (lane, mapped) in self.0.iter().zip(&mut mapped.0) {
+            f(lane, mapped);
+        }
+        mapped
+    }
+
+    /// A weighted sum of the control points.
+    pub fn weighted(&self, weights: &[f64; N]) -> Dual {
+        let mut sums = [0.0; 9];
+        for (lane, sum) in self.0.iter().zip(&mut sums) {
+            let mut halves = [0.0; 2];
+            for (pair, weights) in lane.chunks_exact(2).zip(weights.chunks_exact(2)) {
+                halves[0] += pair[0] * weights[0];
+                halves[1] += pair[1] * weights[1];
+            }
+            *sum = halves[0] + halves[1];
+        }
+        Dual::from_array(sums)
+    }
+
+    /// The same net in the coordinates of another frame, as [`Dual::in_frame`].
+    pub fn in_frame(&self, frame: &DualFrame) -> Self {
+        let [a, b, c] = [frame.axes.x_axis, frame.axes.y_axis, frame.axes.z_axis];
+        let centre = frame.centre;
+        let [xx, xy, xz, yy, yz, zz, x, y, z] = &self.0;
+        let mut inside = [[0.0; N]; 9];
+        for k in 0..N {
+            let times = |v: DVec3| {
+                [
+                    xx[k] * v.x + xy[k] * v.y + xz[k] * v.z,
+                    xy[k] * v.x + yy[k] * v.y + yz[k] * v.z,
+                    xz[k] * v.x + yz[k] * v.y + zz[k] * v.z,
+                ]
+            };
+            let dot = |v: DVec3, w: [f64; 3]| v.x * w[0] + v.y * w[1] + v.z * w[2];
+            let (ta, tb, tc, moved) = (times(a), times(b), times(c), times(centre));
+            let information = [x[k] - moved[0], y[k] - moved[1], z[k] - moved[2]];
+            inside[0][k] = dot(a, ta);
+            inside[1][k] = dot(a, tb);
+            inside[2][k] = dot(a, tc);
+            inside[3][k] = dot(b, tb);
+            inside[4][k] = dot(b, tc);
+            inside[5][k] = dot(c, tc);
+            inside[6][k] = dot(a, information);
+            inside[7][k] = dot(b, information);
+            inside[8][k] = dot(c, information);
+        }
+        Self(inside)
+    }
+
+    /// The largest norm of q̂, and that of q̂ − `from`.
+    pub fn largest_precisions(&self, from: Symmetric3) -> [f64; 2] {
+        let [xx, xy, xz, yy, yz, zz, ..] = &self.0;
+        let square = |[x, y, z]: [f64; 3], [a, b, c]: [f64; 3]| x * x + y * y + z * z + 2.0 * (a * a + b * b + c * c);
+        let (mut own, mut off) = ([0.0; N], [0.0; N]);
+        for k in 0..N {
+            own[k] = square([xx[k], yy[k], zz[k]], [xy[k], xz[k], yz[k]]);
+            off[k] = square(
+                [xx[k] - from.xx, yy[k] - from.yy, zz[k] - from.zz],
+                [xy[k] - from.xy, xz[k] - from.xz, yz[k] - from.yz],
+            );
+        }
+        [greatest(&own).sqrt(), greatest(&off).sqrt()]
+    }
+
+    /// The least eigenvalue of q̂ at a control point, at most `least`.
+    pub fn least_eigenvalue(&self, mut least: f64) -> f64 {
+        let mut is_known = [false; N];
+        loop {
+            // Where the determinant of q̂ − `least` or a minor is not positive, an eigenvalue is less; it is likely the least of all where
+            // the determinant is.
+            let determinants = self.definite_determinants(least);
+            let below = (0..N).filter(|&k| !is_known[k] && (determinants[k] <= 0.0 || determinants[k].is_nan()));
+            let Some(next) = below.min_by(|&j, &k| determinants[j].total_cmp(&determinants[k])) else {
+                return least;
+            };
+            is_known[next] = true;
+            least = f64::min(least, self.control(next).precision.eigen().values[2]);
+        }
+    }
+
+    /// The determinants of q̂ − `shift` where that is positive definite, elsewhere numbers that are not positive.
+    fn definite_determinants(&self, shift: f64) -> [f64; N] {
+        let [xx, xy, xz, yy, yz, zz, ..] = &self.0;
+        let mut determinants = [0.0; N];
+        for k in 0..N {
+            let [dx, dy, dz] = [xx[k] - shift, yy[k] - shift, zz[k] - shift];
+            let minor = dx * dy - xy[k] * xy[k];
+            let [x, y] = [yz[k] * xy[k] - xz[k] * dy, yz[k] * dx - xz[k] * xy[k]];
+            let determinant = dz * minor + xz[k] * x - yz[k] * y;
+            let least = if dx < minor { dx } else { minor };
+            determinants[k] = if determinant < least || least > 0.0 {
+                determinant
+            } else {
+                least
+            };
+        }
+        determinants
+    }
+
+    /// The longest q̄ − `from`.
+    pub fn longest(&self, from: DVec3) -> f64 {
+        let [.., x, y, z] = &self.0;
+        let mut squares = [0.0; N];
+        for k in 0..N {
+            let [dx, dy, dz] = [x[k] - from.x, y[k] - from.y, z[k] - from.z];
+            squares[k] = dx * dx + dy * dy + dz * dz;
+        }
+        greatest(&squares).sqrt()
+    }
+
+    /// The longest q̄ − `from`, mapped by `map`.
+    pub fn longest_mapped(&self, from: DVec3, map: DMat3) -> f64 {
+        let mapped = self.information_mapped(map);
+        let from = map * from;
+        let mut squares = [0.0; N];
+        for k in 0..N {
+            let [dx, dy, dz] = [mapped[0][k] - from.x, mapped[1][k] - from.y, mapped[2][k] - from.z];
+            squares[k] = dx * dx + dy * dy + dz * dz;
+        }
+        greatest(&squares).sqrt()
+    }
+
+    /// q̄ mapped by `map`.
+    fn information_mapped(&self, map: DMat3) -> [[f64; N]; 3] {
+        let [.., x, y, z] = &self.0;
+        let rows = map.transpose();
+        let mut mapped = [[0.0; N]; 3];
+        for (row, lane) in [rows.x_axis, rows.y_axis, rows.z_axis].into_iter().zip(&mut mapped) {
+            for k in 0..N {
+                lane[k] = row.x * x[k] + row.y * y[k] + row.z * z[k];
+            }
+        }
+        mapped
+    }
+
+    /// The least and the greatest coordinates of q̄ mapped by `map`.
+    pub fn extent(&self, map: DMat3) -> [DVec3; 2] {
+        let mapped = self.information_mapped(map);
+        let mut extent = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        for k in 0..N {
+            let point = DVec3::new(mapped[0][k], mapped[1][k], mapped[2][k]);
+            extent = [extent[0].min(point), extent[1].max(point)];
+        }
+        extent
+    }
+}
+
+/// The greatest of an even number of numbers from 0; not-a-numbers do not count.
+fn greatest<const N: usize>(numbers: &[f64; N]) -> f64 {
+    let mut greatest = [0.0; 2];
+    for pair in numbers.chunks_exact(2) {
+        greatest[0] = if pair[0] > greatest[0] { pair[0] } else { greatest[0] };
+        greatest[1] = if pair[1] > greatest[1] { pair[1] } else { greatest[1] };
+    }
+    f64::max(greatest[0], greatest[1])
+}
+
+/// Bicubic patches, along u and v.
+pub struct Square;
+
+impl Net for Square {
+    const MIDDLE: [f64; CONTROLS] = product([0.125, 0.375, 0.375, 0.125], [0.125, 0.375, 0.375, 0.125]);
+    const MIDDLE_OF_FIRST: [[f64; FIRST]; 2] = [
+        product([0.25, 0.5, 0.25], [0.125, 0.375, 0.375, 0.125]),
+        product([0.125, 0.375, 0.375, 0.125], [0.25, 0.5, 0.25]),
+    ];
+    const MIDDLE_OF_SECOND: [[f64; SECOND]; 3] = [
+        product([0.5, 0.5], [0.125, 0.375, 0.375, 0.125]),
+        product([0.25, 0.5, 0.25], [0.25, 0.5, 0.25]),
+        product([0.125, 0.375, 0.375, 0.125], [0.5, 0.5]),
+    ];
+
+    fn first(&self, net: &Lanes<CONTROLS>) -> [Lanes<FIRST>; 2] {
+        let along = net.map(|lane, slopes| {
+            for j in 0..4 {
+                for i in 0..3 {
+                    slopes[3 * j + i] = 3.0 * (lane[4 * j + i + 1] - lane[4 * j + i]);
+                }
+            }
+        });
+        [
+            along,
+            net.map(|lane, slopes: &mut [f64; FIRST]| up::<4, 12>(3.0, lane, slopes)),
+        ]
+    }
+
+    fn second(&self, [u, v]: &[Lanes<FIRST>; 2]) -> [Lanes<SECOND>; 3] {
+        let along = u.map(|lane, bends: &mut [f64; SECOND]| {
+            for j in 0..4 {
+                for i in 0..2 {
+                    bends[2 * j + i] = 2.0 * (lane[3 * j + i + 1] - lane[3 * j + i]);
+                }
+            }
+            repeat_first::<8>(bends);
+        });
+        let both = u.map(|lane, bends: &mut [f64; SECOND]| {
+            up::<3, 9>(3.0, lane, bends);
+            repeat_first::<9>(bends);
+        });
+        let up = v.map(|lane, bends: &mut [f64; SECOND]| {
+            up::<4, 8>(2.0, lane, bends);
+            repeat_first::<8>(bends);
+        });
+        [along, both, up]
+    }
+
+    fn quarters(&self, net: &Lanes<CONTROLS>) -> [Lanes<CONTROLS>; 4] {
+        let below_or_above = |half: usize| net.map(|lane, part| halve(lane, part, half, |line, k| line + 4 * k));
+        let left_or_right =
+            |net: &Lanes<CONTROLS>, half| net.map(|lane, part| halve(lane, part, half, |line, k| 4 * line + k));
+        let [below, above] = [below_or_above(0), below_or_above(1)];
+        [
+            left_or_right(&below, 0),
+            left_or_right(&below, 1),
+            left_or_right(&above, 0),
+            left_or_right(&above, 1),
+        ]
+    }
+}
+
+/// Differences of the rows of a net with rows of this width, times the degree.
+fn up<const WIDTH: usize, const COUNT: usize>(degree: f64, lane: &[f64], slopes: &mut [f64]) {
+    let (lane, above, slopes) = (&lane[..COUNT], &lane[WIDTH..][..COUNT], &mut slopes[..COUNT]);
+    for k in 0..COUNT {
+        slopes[k] = degree * (above[k] - lane[k]);
+    }
+}
+
+fn repeat_first<const FROM: usize>(lane: &mut [f64; SECOND]) {
+    for k in FROM..SECOND {
+        lane[k] = lane[0];
+    }
+}
+
+/// Products of weights along u and v, u fastest; zeros after them.
+const fn product<const P: usize, const Q: usize, const N: usize>(along: [f64; P], up: [f64; Q]) -> [f64; N] {
+    let mut weights = [0.0; N];
+    let mut k = 0;
+    while k < P * Q {
+        weights[k] = along[k % P] * up[k / P];
+        k += 1;
+    }
+    weights
+}
+
+/// The lower or the upper half of the four cubic lines of a net, by de Casteljau's algorithm.
+fn halve(lane: &[f64; CONTROLS], part: &mut [f64; CONTROLS], half: usize, place: impl Fn(usize, usize) -> usize) {
+    for line in 0..4 {
+        let [a, b, c, d] = [
+            lane[place(line, 0)],
+            lane[place(line, 1)],
+            lane[place(line, 2)],
+            lane[place(line, 3)],
+        ];
+        let mean = |a: f64, b: f64| (a + b) * 0.5;
+        let (ab, bc, cd) = (mean(a, b), mean(b, c), mean(c, d));
+        let (abc, bcd) = (mean(ab, bc), mean(bc, cd));
+        let middle = mean(abc, bcd);
+        let own = if half == 0 {
+            [a, ab, abc, middle]
+        } else {
+            [middle, bcd, cd, d]
+        };
+        for k in 0..4 {
+            part[place(line, k)] = own[k];
+        }
+    }
+}

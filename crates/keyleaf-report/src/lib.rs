@@ -1,0 +1,10 @@
+//! What accuracy costs in time: records of runs, how two of them differ, how far drawn triangles are from their surface, and the
+//! report that shows all of it.
+
+pub mod compare;
+pub mod run;
+pub mod statistics;
+pub mod table;
+
+#[cfg(test)]
+mod sample;

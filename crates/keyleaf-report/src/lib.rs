@@ -2,6 +2,7 @@
 //! report that shows all of it.
 
 pub mod compare;
+pub mod error;
 pub mod run;
 pub mod statistics;
 pub mod table;

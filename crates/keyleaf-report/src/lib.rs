@@ -3,7 +3,10 @@
 
 pub mod compare;
 pub mod error;
+pub mod pareto;
+pub mod picture;
 pub mod run;
+pub mod slope;
 pub mod statistics;
 pub mod table;
 

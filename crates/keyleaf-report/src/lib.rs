@@ -3,6 +3,7 @@
 
 pub mod compare;
 pub mod error;
+pub mod html;
 pub mod pareto;
 pub mod picture;
 pub mod report;
@@ -10,6 +11,7 @@ pub mod run;
 pub mod scaling;
 pub mod slope;
 pub mod statistics;
+pub mod svg;
 pub mod table;
 
 #[cfg(test)]

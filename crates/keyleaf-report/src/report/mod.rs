@@ -14,7 +14,7 @@ use crate::scaling::Scaling;
 use crate::statistics::Interval;
 use serde::{Deserialize, Serialize};
 
-/// All of a report: `html::page` and [`Report::csv`] show it.
+/// All of a report: [`html::page`](crate::html::page) and [`Report::csv`] show it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Report {
     /// Its title.

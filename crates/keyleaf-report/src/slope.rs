@@ -18,16 +18,20 @@ pub struct Slope {
 }
 
 impl Slope {
-    /// The fitted y.
+    /// The fitted y, without the floor.
     pub fn at(&self, x: f64) -> f64 {
         self.factor * x.powf(self.exponent)
     }
 }
 
-/// A step whose slope is below this part of the median of those before it is on the floor.
-const FLAT: f64 = 0.5;
-/// Points nearer than this factor to the floor are mixed of both, and left out.
-const ABOVE_FLOOR: f64 = 3.0;
+/// Points nearer than this factor to the floor say little of the power, and are left out of its fit.
+const ABOVE_FLOOR: f64 = 2.0;
+/// Floors that are tried, from a hundredth of the least value to four times it.
+const FLOORS: i32 = 160;
+/// A floor is believed if it leaves less than this part of what the fit without one leaves.
+const BELIEVED: f64 = 0.5;
+/// What a fit may leave without a floor being looked for: 1 %.
+const GOOD: f64 = 0.004;
 
 /// The power law of points, all of them. `None` for fewer than two different x; points that are not above 0 do not count.
 pub fn power_law(points: &[(f64, f64)]) -> Option<Slope> {
@@ -56,43 +60,54 @@ pub fn power_law(points: &[(f64, f64)]) -> Option<Slope> {
     })
 }
 
-/// The power law of an error that falls as x falls, until rounding holds it up.
+/// The power law of an error that falls as x falls, until rounding holds it up: y = factor · x^exponent + floor.
 ///
-/// From the coarsest point on, the floor begins where the local slope falls below half the median of those before; it is the median of
-/// the errors from there. What is less than three times above it is left out of the fit. `None` for fewer than two points that count.
+/// Of many floors the one is taken that fits the logarithms of all points best; for each the power is fitted to the points that are
+/// above twice the floor, less the floor. Without one that halves what is left of the errors, there is none. `None` for fewer than two
+/// points that count.
 ///
 /// ```
 /// use keyleaf_report::slope::falling_error;
 /// let error = |edge: f64| 0.125 * edge * edge + 1e-7;
 /// let points: Vec<(f64, f64)> = (0..16).map(|i| 0.5f64.powi(i)).map(|x| (x, error(x))).collect();
 /// let slope = falling_error(&points).unwrap();
-/// assert!((slope.exponent - 2.0).abs() < 0.05);
-/// assert!((slope.floor.unwrap() / 1e-7 - 1.0).abs() < 0.1);
+/// assert!((slope.exponent - 2.0).abs() < 0.01);
+/// assert!((slope.floor.unwrap() / 1e-7 - 1.0).abs() < 0.05);
 /// ```
 pub fn falling_error(points: &[(f64, f64)]) -> Option<Slope> {
-    let mut sorted: Vec<(f64, f64)> = points.iter().copied().filter(|p| p.0 > 0.0 && p.1 > 0.0).collect();
-    sorted.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let mut slopes: Vec<f64> = Vec::new();
-    let mut floor = None;
-    for (i, pair) in sorted.windows(2).enumerate() {
-        let run = (pair[0].0 / pair[1].0).ln();
-        if run <= 0.0 {
-            continue;
-        }
-        let local = (pair[0].1 / pair[1].1).ln() / run;
-        let usual = crate::statistics::median(&slopes);
-        if slopes.len() >= 2 && usual.is_some_and(|usual| usual > 0.0 && local < FLAT * usual) {
-            let rest: Vec<f64> = sorted[i + 1..].iter().map(|p| p.1).collect();
-            floor = crate::statistics::median(&rest);
-            break;
-        }
-        slopes.push(local);
+    let is_positive = |p: &(f64, f64)| p.0 > 0.0 && p.1 > 0.0 && p.0.is_finite() && p.1.is_finite();
+    let points: Vec<(f64, f64)> = points.iter().copied().filter(is_positive).collect();
+    let without = power_law(&points)?;
+    if points.len() < 4 || without.residual < GOOD {
+        return Some(without);
     }
-    let least = floor.map_or(0.0, |floor| ABOVE_FLOOR * floor);
-    let above: Vec<(f64, f64)> = sorted.into_iter().filter(|p| p.1 >= least).collect();
+    let least = points.iter().map(|p| p.1).fold(f64::INFINITY, f64::min);
+    let floors = (0..FLOORS).map(|i| least * 10f64.powf(2.6 * f64::from(i) / f64::from(FLOORS - 1) - 2.0));
+    let fits = floors.filter_map(|floor| with_floor(&points, floor));
+    let best = fits.min_by(|a, b| a.residual.total_cmp(&b.residual));
+    let is_believed = |fit: &Slope| fit.residual < BELIEVED * without.residual && fit.exponent > 0.0;
+    Some(best.filter(is_believed).unwrap_or(without))
+}
+
+/// The fit for one floor; `None` if it leaves too few points to tell a power.
+fn with_floor(points: &[(f64, f64)], floor: f64) -> Option<Slope> {
+    let above: Vec<(f64, f64)> = points
+        .iter()
+        .filter(|p| p.1 > ABOVE_FLOOR * floor)
+        .map(|p| (p.0, p.1 - floor))
+        .collect();
+    if above.len() < 3 {
+        return None;
+    }
+    let law = power_law(&above)?;
+    let squares: f64 = points
+        .iter()
+        .map(|p| ((law.at(p.0) + floor) / p.1).log10().powi(2))
+        .sum();
     Some(Slope {
-        floor,
-        ..power_law(&above)?
+        floor: Some(floor),
+        residual: (squares / points.len() as f64).sqrt(),
+        ..law
     })
 }
 
@@ -118,12 +133,30 @@ mod tests {
     }
 
     #[test]
+    fn noise_is_no_floor_and_a_noisy_floor_is_found() {
+        let noise = |i: i32| 1.0 + 0.2 * ((f64::from(i) * 12.9898).sin() * 43758.5453).rem_euclid(1.0);
+        let points = |floor: f64| -> Vec<(f64, f64)> {
+            let point = |i: i32| (0.5f64.powi(i), (0.25f64.powi(i) + floor) * noise(i));
+            (0..12).map(point).collect()
+        };
+        let slope = falling_error(&points(0.0)).unwrap();
+        assert!(
+            slope.floor.is_none() && (slope.exponent - 2.0).abs() < 0.05,
+            "{slope:?}"
+        );
+        let slope = falling_error(&points(1e-4)).unwrap();
+        assert!((slope.exponent - 2.0).abs() < 0.1, "{slope:?}");
+        assert!((0.8e-4..1.5e-4).contains(&slope.floor.unwrap()), "{slope:?}");
+    }
+
+    #[test]
     fn the_order_of_points_does_not_matter() {
         let error = |x: f64| x * x + 1e-6;
         let mut points: Vec<(f64, f64)> = (0..14).map(|i| 0.5f64.powi(i)).map(|x| (x, error(x))).collect();
         let before = falling_error(&points).unwrap();
         points.reverse();
-        assert_eq!(falling_error(&points).unwrap(), before);
+        let after = falling_error(&points).unwrap();
+        assert!((after.exponent - before.exponent).abs() < 1e-12 && after.floor == before.floor);
         assert!(before.points < 14 && before.floor.is_some());
     }
 }

@@ -15,6 +15,8 @@ pub(super) struct Figure {
 const TIME: &str = "milliseconds a frame";
 /// Bars in a figure.
 const MOST_BARS: usize = 28;
+/// The longest over the shortest frame that bars show in milliseconds.
+const MOST_RATIO: f64 = 8.0;
 
 /// All for which there are numbers.
 pub(super) fn all(scene: &SceneReport) -> Vec<Figure> {
@@ -97,7 +99,7 @@ fn error_against_time(scene: &SceneReport, quantity: Quantity) -> Option<Figure>
             x: Axis::logarithmic(TIME),
             y: axis(quantity.axis()),
             series,
-            line: front.iter().filter_map(place).collect(),
+            line: stairs(&front.iter().filter_map(place).collect::<Vec<_>>()),
             line_name: "not beaten".to_owned(),
         }),
         remark: format!(
@@ -105,6 +107,17 @@ fn error_against_time(scene: &SceneReport, quantity: Quantity) -> Option<Figure>
              median may lie."
         ),
     })
+}
+
+/// What a front leaves no setting beyond: each point holds until the next.
+fn stairs(front: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let corner = |pair: &[[f64; 2]]| [[pair[1][0], pair[0][1]], pair[1]];
+    front
+        .first()
+        .copied()
+        .into_iter()
+        .chain(front.windows(2).flat_map(corner))
+        .collect()
 }
 
 fn triangles_against_error(scene: &SceneReport) -> Option<Figure> {
@@ -154,7 +167,10 @@ fn time_by_pass(scene: &SceneReport) -> Option<Figure> {
     if names.is_empty() {
         return None;
     }
-    let bar = |point: &Point| {
+    // Evenly chosen if there are too many.
+    let every = scene.points.len().div_ceil(MOST_BARS).max(1);
+    let chosen: Vec<&Point> = scene.points.iter().step_by(every).collect();
+    let ms = |point: &Point| -> Vec<f64> {
         let of = |name: &String| {
             point
                 .passes
@@ -163,21 +179,35 @@ fn time_by_pass(scene: &SceneReport) -> Option<Figure> {
                 .map(|pass| pass.ms)
                 .sum()
         };
+        names.iter().map(of).collect()
+    };
+    let totals: Vec<f64> = chosen.iter().map(|point| ms(point).iter().sum()).collect();
+    let (least, most) = totals
+        .iter()
+        .fold((f64::INFINITY, 0.0f64), |(l, m), t| (l.min(*t), m.max(*t)));
+    // Where times differ much, short bars would show nothing.
+    let as_parts = most > MOST_RATIO * least;
+    let bar = |(point, total): (&&Point, &f64)| {
+        let unit = if as_parts {
+            100.0 / total.max(f64::MIN_POSITIVE)
+        } else {
+            1.0
+        };
         Bar {
             name: full_name(point),
-            parts: names.iter().map(of).collect(),
+            parts: ms(point).into_iter().map(|part| part * unit).collect(),
+            end: format!("{} ms", figure(*total)),
         }
     };
-    // Evenly chosen if there are too many.
-    let every = scene.points.len().div_ceil(MOST_BARS).max(1);
-    let rows: Vec<Bar> = scene.points.iter().step_by(every).map(bar).collect();
-    let mut remark = "Medians of passes; their sum need not be the median of frames.".to_owned();
+    let rows: Vec<Bar> = chosen.iter().zip(&totals).map(bar).collect();
+    let mut remark = "Medians of passes; their sum, at the right, need not be the median of frames.".to_owned();
     if every > 1 {
         remark += &format!(" {} of {} settings; the table has all.", rows.len(), scene.points.len());
     }
+    let unit = if as_parts { "% of the frame" } else { TIME };
     Some(Figure {
         title: "Time by pass".to_owned(),
-        svg: bars(&format!("{}: time by pass", scene.name), &names, TIME, &rows),
+        svg: bars(&format!("{}: time by pass", scene.name), &names, unit, &rows),
         remark,
     })
 }

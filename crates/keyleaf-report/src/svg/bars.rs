@@ -13,6 +13,8 @@ pub struct Bar {
     pub name: String,
     /// Its parts, as the legend has them.
     pub parts: Vec<f64>,
+    /// What stands at its end.
+    pub end: String,
 }
 
 /// Height of a bar with the room below it.
@@ -31,7 +33,7 @@ pub fn bars(title: &str, names: &[String], unit: &str, rows: &[Bar]) -> String {
         .fold(0.0, f64::max)
         .min(0.42 * WIDTH);
     let left = longest_name + 12.0;
-    let totals = rows.iter().map(|bar| width(&figure(total(bar)))).fold(0.0, f64::max);
+    let totals = rows.iter().map(|bar| width(&bar.end)).fold(0.0, f64::max);
     let right = WIDTH - totals - 14.0;
     let scale = Scale::from_zero(rows.iter().map(total).fold(0.0, f64::max), [left, right]);
     let bottom = top + ROW * rows.len() as f64 + 2.0;
@@ -71,7 +73,7 @@ pub fn bars(title: &str, names: &[String], unit: &str, rows: &[Bar]) -> String {
             sum += part;
         }
         let end = scale.place(sum).unwrap_or(left);
-        elements.text("quiet", [end + 6.0, y + 14.0], Anchor::Start, &figure(sum));
+        elements.text("quiet", [end + 6.0, y + 14.0], Anchor::Start, &bar.end);
     }
     elements.line("axis", [left, top - 2.0], [left, bottom]);
     elements.text("", [(left + right) / 2.0, bottom + 16.0 + LINE], Anchor::Middle, unit);

@@ -20,7 +20,7 @@ pub use scale::Axis;
 pub const STYLE: &str = include_str!("figure.css");
 
 /// Width of all figures in their own units; text is 13 units high.
-const WIDTH: f64 = 560.0;
+const WIDTH: f64 = 480.0;
 
 /// Colours of the style sheet.
 const COLOURS: usize = 7;

@@ -17,7 +17,7 @@ pub struct Plot {
     pub y: Axis,
     /// The series.
     pub series: Vec<PlotSeries>,
-    /// A dashed line, such as that through a front.
+    /// Corners of a dashed line, such as the stairs of a front.
     pub line: Vec<[f64; 2]>,
     /// What the dashed line is; its entry in the legend.
     pub line_name: String,
@@ -52,7 +52,7 @@ pub struct PlotPoint {
 }
 
 /// Height of the part that holds the data.
-const HEIGHT: f64 = 300.0;
+const HEIGHT: f64 = 280.0;
 const RIGHT: f64 = WIDTH - 14.0;
 
 /// Draws a plot.
@@ -116,17 +116,19 @@ fn key(elements: &mut Elements, plot: &Plot) -> f64 {
         30.0,
         &|elements, i, [x, y]| match plot.series.get(i) {
             Some(series) => elements.marker(series.style, true, [x, y], ""),
-            None => elements.line("front", [x - 6.0, y], [x + 8.0, y]),
+            None => elements.line("front", [x - 7.0, y], [x + 5.0, y]),
         },
     )
 }
 
 fn data(elements: &mut Elements, plot: &Plot, x: &Scale, y: &Scale, area: Area) {
     let place = |px: f64, py: f64| Some([x.place(px)?, y.place(py)?]);
+    let mut lines = Vec::new();
     for series in &plot.series {
         let colour = series.style % super::COLOURS;
         let line: Vec<[f64; 2]> = series.points.iter().filter_map(|p| place(p.x, p.y)).collect();
         elements.polyline(&format!("line s{colour}"), &line);
+        lines.push(line);
         for point in &series.points {
             let ends = point.spread.map(|ends| ends.map(|end| place(end, point.y)));
             if let Some([Some(low), Some(high)]) = ends {
@@ -140,7 +142,8 @@ fn data(elements: &mut Elements, plot: &Plot, x: &Scale, y: &Scale, area: Area) 
     }
     let mut labels = Labels {
         area,
-        obstacles: Vec::new(),
+        obstacles: line_areas(&front),
+        lines: lines.iter().flat_map(|line| line_areas(line)).collect(),
     };
     let mut named = Vec::new();
     for series in &plot.series {
@@ -151,16 +154,19 @@ fn data(elements: &mut Elements, plot: &Plot, x: &Scale, y: &Scale, area: Area) 
             named.extend(point.name.as_ref().map(|name| (at, name)));
         }
     }
-    // Names must not be crossed by the front either: its line as small areas.
-    for pair in front.windows(2) {
-        let along = |t: f64| [0, 1].map(|i| pair[0][i] + t * (pair[1][i] - pair[0][i]));
-        let steps = (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]) / 6.0;
-        let dots = (0..=steps as usize).map(|i| along(i as f64 / steps.max(1.0)));
-        labels
-            .obstacles
-            .extend(dots.map(|[x, y]| Area::new(x - 1.5, y - 1.5, x + 1.5, y + 1.5)));
-    }
     for (at, name) in named {
         labels.place(elements, at, name);
     }
+}
+
+/// A line as a chain of small areas that texts can keep clear of.
+fn line_areas(line: &[[f64; 2]]) -> Vec<Area> {
+    let dots = |pair: &[[f64; 2]]| -> Vec<Area> {
+        let [from, to] = [pair[0], pair[1]];
+        let steps = ((to[0] - from[0]).hypot(to[1] - from[1]) / 5.0).ceil().max(1.0);
+        let along = |i: usize| [0, 1].map(|axis| from[axis] + i as f64 / steps * (to[axis] - from[axis]));
+        let dot = |[x, y]: [f64; 2]| Area::new(x - 1.0, y - 1.0, x + 1.0, y + 1.0);
+        (0..=steps as usize).map(|i| dot(along(i))).collect()
+    };
+    line.windows(2).flat_map(dots).collect()
 }

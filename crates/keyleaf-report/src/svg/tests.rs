@@ -54,6 +54,7 @@ fn texts_do_not_overlap_and_stay_in_the_figure() {
         .map(|i| Bar {
             name: format!("a setting with a name that is far too long for the room that it has {i}"),
             parts: vec![f64::from(i), 0.5],
+            end: format!("{i} ms"),
         })
         .collect();
     let names: Vec<String> = (0..9).map(|i| format!("a pass of some name {i}")).collect();
@@ -101,6 +102,7 @@ fn empty_and_strange_data_are_drawn_as_nothing() {
         &[Bar {
             name: String::new(),
             parts: vec![f64::NAN],
+            end: String::new(),
         }],
     );
     assert!(!svg.contains("NaN"), "{svg}");

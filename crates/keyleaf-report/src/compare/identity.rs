@@ -57,6 +57,7 @@ pub(super) fn of_records(before: &RunRecord, after: &RunRecord) -> Vec<Differenc
         ("driver", a.driver.clone(), b.driver.clone()),
         ("backend", a.backend.clone(), b.backend.clone()),
         ("features", a.features.join(", "), b.features.join(", ")),
+        ("flags", a.flags.join(", "), b.flags.join(", ")),
         ("cores", a.cores.to_string(), b.cores.to_string()),
         (
             "validation of indirect calls",

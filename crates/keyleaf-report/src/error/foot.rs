@@ -17,8 +17,8 @@ pub(super) struct Foot {
 const STEPS: u32 = 12;
 /// Faces that a search may enter.
 const CROSSINGS: u32 = 4;
-/// A part of the distance; gains below it end the search.
-const GAIN: f64 = 1e-9;
+/// A part of the squared distance; gains below it end the search.
+const GAIN: f64 = 1e-8;
 
 /// A point to which the nearest one is sought.
 pub(super) struct Search<'a, F> {
@@ -86,8 +86,11 @@ impl<F: Fn(RootPoint) -> SurfaceFrame> Search<'_, F> {
         let mut foot = start;
         for _ in 0..STEPS {
             let at = domain.parameters(foot.at);
-            let step = self.step(domain, at, &foot)?;
             let before = self.distance(&foot);
+            let (step, gain) = self.step(domain, at, &foot)?;
+            if gain <= GAIN * before * before {
+                break;
+            }
             let mut next = None;
             // As far as the face goes, then ever shorter; last, beyond it and back to the nearest side.
             let room = domain.room(at, step);
@@ -106,15 +109,13 @@ impl<F: Fn(RootPoint) -> SurfaceFrame> Search<'_, F> {
                 break;
             };
             foot = next;
-            if before - self.distance(&foot) <= GAIN * before {
-                break;
-            }
         }
         Ok(foot)
     }
 
-    /// The Gauss-Newton step for |S(u, v) − target|²; along the boundary where it would lead out.
-    fn step(&self, domain: Domain, at: DVec2, foot: &Foot) -> Result<DVec2, MeasureError> {
+    /// The Gauss-Newton step for |S(u, v) − target|², along the boundary where it would lead out, and by how much that square should
+    /// fall.
+    fn step(&self, domain: Domain, at: DVec2, foot: &Foot) -> Result<(DVec2, f64), MeasureError> {
         let [du, dv] = domain.derivatives(self.surface, &self.evaluate, at, &foot.frame)?;
         let rest = self.target - foot.frame.position;
         let slope = DVec2::new(du.dot(rest), dv.dot(rest));
@@ -125,12 +126,13 @@ impl<F: Fn(RootPoint) -> SurfaceFrame> Search<'_, F> {
         let determinant = e * g - f * f;
         let step = DVec2::new(g * slope.x - f * slope.y, e * slope.y - f * slope.x) / determinant;
         let step = if step.is_finite() { step } else { DVec2::ZERO };
-        Ok(match domain.wall(at, step) {
+        let step = match domain.wall(at, step) {
             Some(along) => {
                 let tangent = du * along.x + dv * along.y;
                 along * (tangent.dot(rest) / (tangent.length_squared() + damping))
             }
             None => step,
-        })
+        };
+        Ok((step, slope.dot(step)))
     }
 }

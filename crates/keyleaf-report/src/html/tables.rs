@@ -43,6 +43,7 @@ pub(super) fn device(report: &Report) -> String {
         ("backend", device.backend.clone()),
         ("times", device.times().to_owned()),
         ("features", device.features.join(", ")),
+        ("flags", device.flags.join(", ")),
         ("validation of indirect calls", yes(device.indirect_validation)),
         ("CPU cores", device.cores.to_string()),
         (

@@ -69,6 +69,9 @@ pub struct Device {
     /// Features that were enabled.
     #[serde(default)]
     pub features: Vec<String>,
+    /// Flags of the API that cost time, such as `VALIDATION`.
+    #[serde(default)]
+    pub flags: Vec<String>,
     /// Whether indirect calls were validated, which adds passes to every indirect dispatch and draw.
     pub indirect_validation: bool,
     /// Cores of the CPU that the process may use.

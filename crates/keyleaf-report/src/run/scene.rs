@@ -81,6 +81,9 @@ pub struct PassRecord {
     /// CPU milliseconds of the process while it ran.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cpu_ms: Option<Series>,
+    /// Milliseconds of recording its commands.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub record_ms: Option<Series>,
     /// Parts of it that have timestamps of their own.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub phases: Vec<PassRecord>,
@@ -93,6 +96,7 @@ impl PassRecord {
             name: name.to_owned(),
             ms,
             cpu_ms: None,
+            record_ms: None,
             phases: Vec::new(),
         }
     }
@@ -110,6 +114,32 @@ pub struct BufferBytes {
 }
 
 impl SceneRun {
+    /// A run without figures, of a scene as it is.
+    pub fn new(scene: &str, path: &str, clock: Clock, frames: usize) -> Self {
+        let none = Series::default;
+        Self {
+            scene: scene.to_owned(),
+            file: String::new(),
+            path: path.to_owned(),
+            variant: String::new(),
+            settings: BTreeMap::new(),
+            frames,
+            clock,
+            passes: Vec::new(),
+            leaves: none(),
+            visible: none(),
+            triangles: none(),
+            splits: none(),
+            merges: none(),
+            starved: none(),
+            record_ms: none(),
+            cpu_ms: none(),
+            wall_ms: none(),
+            memory: Vec::new(),
+            figures: BTreeMap::new(),
+        }
+    }
+
     /// What makes two runs the same measurement: scene, path and variant.
     pub fn key(&self) -> (&str, &str, &str) {
         (&self.scene, &self.path, &self.variant)
@@ -155,6 +185,11 @@ impl SceneRun {
         for pass in &self.passes {
             all.push((format!("{}.ms", pass.name), &pass.ms));
             all.extend(pass.cpu_ms.iter().map(|cpu| (format!("{}.cpu_ms", pass.name), cpu)));
+            all.extend(
+                pass.record_ms
+                    .iter()
+                    .map(|record| (format!("{}.record_ms", pass.name), record)),
+            );
             let phases = pass.phases.iter();
             all.extend(phases.map(|phase| (format!("{}.{}.ms", pass.name, phase.name), &phase.ms)));
         }

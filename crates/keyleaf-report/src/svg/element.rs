@@ -78,7 +78,7 @@ impl Elements {
         match series
             .checked_sub(1)
             .map(|i| SHAPES[i % SHAPES.len()])
-            .filter(|_| series % 6 != 0)
+            .filter(|_| !series.is_multiple_of(6))
         {
             Some(path) => self.add(format_args!(
                 r#"<path class="{class}" transform="translate({x:.1} {y:.1})" d="{path}"><title>{title}</title></path>"#

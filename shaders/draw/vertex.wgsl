@@ -12,7 +12,7 @@ struct Vertex {
     position: vec3f, // world axes, relative to the eye
     normal: vec3f,   // world, unit
     grid: vec2f,     // base grid, in cells
-    leaf: u32,       // level, and 0x100 for a pair
+    leaf: u32,       // level, and 0x100 for a pair; the upper half is what `leaf_mark` says, as f16
     face: u32,
     at: FaceCoord,
 }
@@ -32,7 +32,7 @@ fn leaf_vertex(instance: u32, grid: u32) -> Vertex {
         (frame.world_from_object * from_eye).xyz,
         normalize((frame.normal_from_object * vec4f(on.normal, 0.0)).xyz),
         vec2f(f32(i), f32(j)),
-        place.level | select(0u, 0x100u, is_pair),
+        place.level | select(0u, 0x100u, is_pair) | leaf_mark(slot, place, is_pair, i, j, on.position),
         place.face,
         at,
     );

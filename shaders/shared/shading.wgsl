@@ -18,7 +18,7 @@ struct Shading {
     high: vec3f,
     steepest: f32,
     steep: vec3f,
-    unused: f32,
+    pixels_per_unit: f32, // that a world unit at distance 1 covers
     snow: vec3f,
     unused_too: f32,
     line_colour: vec4f,

@@ -10,6 +10,8 @@
 //! assert!(!source.contains("fn surface_point"));
 //! ```
 
+#[cfg(feature = "reload")]
+pub mod reload;
 mod table;
 
 pub use table::FILES;
@@ -29,7 +31,15 @@ pub enum ComposeError {
 
 /// The text of one WGSL file, by its path relative to the folder `shaders`.
 pub fn source(file: &str) -> Option<&'static str> {
-    FILES.iter().find(|(path, _)| *path == file).map(|(_, text)| *text)
+    find(file).map(|(_, text)| text)
+}
+
+/// Path and text of a file.
+fn find(file: &str) -> Option<(&'static str, &'static str)> {
+    let (path, text) = FILES.iter().find(|(path, _)| *path == file)?;
+    #[cfg(feature = "reload")]
+    let text = &reload::text_in_place_of(path).unwrap_or(text);
+    Some((path, text))
 }
 
 /// The files that `roots` need, dependencies first, each once.
@@ -71,7 +81,7 @@ fn visit(file: &str, by: &str, order: &mut Vec<&'static str>) -> Result<(), Comp
     if order.contains(&file) {
         return Ok(());
     }
-    let Some((path, text)) = FILES.iter().find(|(path, _)| *path == file) else {
+    let Some((path, text)) = find(file) else {
         return Err(ComposeError::UnknownFile {
             file: file.to_owned(),
             by: by.to_owned(),

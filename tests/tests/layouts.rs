@@ -172,7 +172,7 @@ fn shading() {
         eye: Vec3::splat, exposure: number, sun_direction: Vec3::splat, line_width: number, sun_colour: Vec3::splat,
         fog_density: number, ambient: Vec3::splat, lowest: number, fog_colour: Vec3::splat, highest: number,
         base_colour: Vec3::splat, snow_line: number, low: Vec3::splat, gentle: number, high: Vec3::splat, steepest: number,
-        steep: Vec3::splat, unused: number, snow: Vec3::splat, unused_too: number, line_colour: Vec4::splat,
+        steep: Vec3::splat, pixels_per_unit: number, snow: Vec3::splat, unused_too: number, line_colour: Vec4::splat,
     );
     assert_uniform(&["shared/shading.wgsl"], "Shading", &value, &words);
 }

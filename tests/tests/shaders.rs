@@ -2,7 +2,8 @@
 
 use keyleaf::draw::Sky;
 use keyleaf::inspect::Inspector;
-use keyleaf::shading::{Atmosphere, Channel, Material, Overlay};
+use keyleaf::map::MapPipeline;
+use keyleaf::shading::{Atmosphere, Channel, Material, Overlay, Tint};
 use keyleaf::{BackFaces, Balance, Kind, modules};
 use keyleaf_shaders::{FILES, compose, dependencies};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
@@ -57,7 +58,13 @@ pub fn kinds() -> Vec<Kind> {
 }
 
 pub fn channels() -> Vec<Channel> {
-    let mut channels = vec![Channel::Normal, Channel::Level, Channel::Position];
+    let mut channels = vec![
+        Channel::Normal,
+        Channel::Level,
+        Channel::Position,
+        Channel::Error,
+        Channel::Overdraw,
+    ];
     for material in [
         Material::Plain,
         Material::Terrain,
@@ -65,12 +72,8 @@ pub fn channels() -> Vec<Channel> {
         Material::Texture,
         Material::Matcap,
     ] {
-        for overlay in [
-            Overlay::None,
-            Overlay::Level,
-            Overlay::Wireframe,
-            Overlay::LevelWireframe,
-        ] {
+        let overlays = Tint::ALL.map(|tint| [false, true].map(|wireframe| Overlay { tint, wireframe }));
+        for overlay in overlays.into_iter().flatten() {
             channels.extend([Atmosphere::None, Atmosphere::Haze].map(|air| Channel::Colour(material, overlay, air)));
         }
     }
@@ -87,6 +90,7 @@ fn combinations() -> BTreeSet<Vec<&'static str>> {
         };
         all.extend(channels().iter().map(|channel| with_surface(channel.files())));
         all.extend(Inspector::FILES.map(|file| with_surface(vec![file])));
+        all.insert(with_surface(MapPipeline::FILES.to_vec()));
     }
     all.insert(Sky::FILES.to_vec());
     all
@@ -161,7 +165,7 @@ fn what_a_scene_does_not_name_is_not_in_its_shaders() {
         ("displaced", &["displaced"]),
         ("wire", &["wireframe"]),
         ("haze", &["haze"]),
-        ("level_colour", &["overlay_level", "draw/level"]),
+        ("level_colour", &["tint_level", "draw/level", "draw/map"]),
         ("material_texture", &["material_texture"]),
         ("material_terrain", &["material_terrain"]),
     ];

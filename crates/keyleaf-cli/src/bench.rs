@@ -3,7 +3,7 @@
 use crate::arguments::{Overrides, ReadingArguments, load_scene, parse_seconds, parse_size};
 use crate::output::{self, thousands};
 use crate::session::{self, DeviceReport};
-use crate::timing::{self, Part, TimedFrame, Timer};
+use crate::timing::{self, Part, TimedFrame};
 use crate::{Outcome, progress, table};
 use anyhow::{Context, ensure};
 use clap::{Args, ValueEnum};
@@ -11,7 +11,7 @@ use glam::UVec2;
 use keyleaf::headless::Headless;
 use keyleaf::{Balance, Phase, View, wgpu};
 use keyleaf_scene::scene::CameraPath;
-use keyleaf_stage::{Canvas, Loaded, Show, Stage, StageLook, view_of};
+use keyleaf_stage::{Canvas, Loaded, Show, Stage, StageLook, Timer, view_of};
 use serde::Serialize;
 use serde_json::json;
 use std::path::{Path, PathBuf};

@@ -9,7 +9,6 @@ mod accuracy;
 mod arguments;
 mod bench;
 mod check;
-mod collapse;
 mod csv;
 mod difference;
 mod eval;
@@ -22,9 +21,11 @@ mod render;
 mod session;
 mod table;
 mod timing;
+mod view;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;
+use std::time::Instant;
 
 /// Terrain, meshes and curved surfaces, refined on the GPU every frame.
 ///
@@ -44,6 +45,7 @@ struct Program {
 
 #[derive(Subcommand)]
 enum Command {
+    View(view::Arguments),
     Render(render::Arguments),
     Export(export::Arguments),
     Eval(eval::Arguments),
@@ -63,8 +65,10 @@ enum Outcome {
 }
 
 fn main() -> ExitCode {
+    let started = Instant::now();
     let Program { command, quiet } = Program::parse();
     let outcome = match command {
+        Command::View(arguments) => view::run(&arguments, started),
         Command::Render(arguments) => render::run(&arguments, quiet),
         Command::Export(arguments) => export::run(&arguments, quiet),
         Command::Eval(arguments) => eval::run(&arguments, quiet),

@@ -5,14 +5,15 @@ use crate::arguments::{SceneArguments, ViewArguments};
 use crate::difference::{self, Quantity};
 use crate::output::{self, thousands};
 use crate::session::{self, DeviceReport};
-use crate::timing::{self, Timer};
+use crate::timing;
 use anyhow::ensure;
 use clap::{Args, ValueEnum};
 use glam::{DVec3, UVec2};
 use image::{DynamicImage, ImageBuffer, ImageFormat};
 use keyleaf::headless::Headless;
+use keyleaf::shading::Tint;
 use keyleaf::{KeyleafError, View};
-use keyleaf_stage::{Canvas, Deviations, Loaded, Show, Stage, StageLook};
+use keyleaf_stage::{Canvas, Deviations, Loaded, Show, Stage, StageLook, Timer};
 use serde_json::json;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -99,7 +100,7 @@ impl Channel {
         StageLook {
             show,
             wireframe: overlay.wireframe,
-            level_tint: overlay.level_tint,
+            tint: if overlay.level_tint { Tint::Level } else { Tint::None },
         }
     }
 }

@@ -3,7 +3,7 @@
 use crate::progress;
 use keyleaf::headless::Headless;
 use keyleaf::{KeyleafError, Statistics, View, wgpu};
-use keyleaf_stage::{Loaded, Stage, StageLook, target};
+use keyleaf_stage::{Loaded, Settling, Stage, StageLook, target};
 use serde::Serialize;
 use std::sync::Arc;
 
@@ -94,11 +94,6 @@ pub struct Settled {
     pub is_settled: bool,
 }
 
-/// Frames without a change after which nothing will change: a request, and a merge, take two passes each.
-const QUIET_FRAMES: u32 = 4;
-/// The same while wishes are unmet, so that the pressure has had its turn.
-const STARVED_QUIET_FRAMES: u32 = 12;
-
 /// Updates for a view until nothing changes, or for as many frames as are given.
 ///
 /// From the roots a settled result takes a pass a level to split and a few for requests, ARCHITECTURE section 3; a starved one takes
@@ -118,19 +113,10 @@ pub fn settle(
         .unwrap_or(0);
     let most = frames.unwrap_or(4 * (2 * deepest + 8)).max(1);
     let bar = progress::bar(most.into(), "refining", quiet);
-    let (mut unchanged, mut pressure) = (0, 0.0);
+    let mut settling = Settling::default();
     for frame in 1.. {
-        let statistics = update(gpu, stage, view)?;
+        let is_settled = settling.observe(&update(gpu, stage, view)?);
         bar.inc(1);
-        let is_still = statistics.splits + statistics.merges == 0 && statistics.threshold_factor == pressure;
-        unchanged = if is_still { unchanged + 1 } else { 0 };
-        pressure = statistics.threshold_factor;
-        let is_settled = unchanged
-            >= if statistics.unmet == 0 {
-                QUIET_FRAMES
-            } else {
-                STARVED_QUIET_FRAMES
-            };
         if frame == most || (frames.is_none() && is_settled) {
             bar.finish_and_clear();
             return Ok(Settled {

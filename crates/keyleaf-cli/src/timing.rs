@@ -4,91 +4,19 @@ use crate::session;
 use cpu_time::ProcessTime;
 use keyleaf::headless::Headless;
 use keyleaf::{KeyleafError, Phase, Statistics, View, read_back, wgpu};
+pub use keyleaf_stage::Timer;
 use keyleaf_stage::{Canvas, Stage};
 use std::ops::Range;
 use std::time::{Duration, Instant};
 
-/// Timestamp queries around the phases of the updates of all surfaces, and around the draw.
-pub struct Timer {
-    queries: wgpu::QuerySet,
-    resolved: wgpu::Buffer,
-    /// Milliseconds a tick.
-    period: f64,
-    /// Passes that have timestamps, the draw first.
-    passes: u32,
+/// Milliseconds of each of the given passes; waits for them.
+fn read(timer: &Timer, gpu: &Headless, passes: Range<u32>) -> Result<Vec<f64>, KeyleafError> {
+    let mut encoder = gpu.device.create_command_encoder(&Default::default());
+    let (resolved, size) = timer.resolve(&mut encoder, passes);
+    gpu.queue.submit([encoder.finish()]);
+    let bytes = read_back::read(&gpu.device, &gpu.queue, "timestamps", resolved, 0, size)?;
+    Ok(timer.milliseconds(&bytes))
 }
-
-impl Timer {
-    /// Queries for a stage; `None` if the device has no timestamps.
-    pub fn new(gpu: &Headless, stage: &Stage) -> Option<Self> {
-        if !gpu.device.features().contains(wgpu::Features::TIMESTAMP_QUERY) {
-            return None;
-        }
-        let settle = |object: &keyleaf_stage::StageObject| object.quadtree.settings().settle;
-        let updates: u32 = stage.objects.iter().map(settle).sum();
-        let wanted = 1 + updates * Phase::ALL.len() as u32;
-        let passes = wanted.min(wgpu::QUERY_SET_MAX_QUERIES / 2);
-        let count = 2 * passes;
-        let queries = gpu.device.create_query_set(&wgpu::QuerySetDescriptor {
-            label: Some("keyleaf.timestamps"),
-            ty: wgpu::QueryType::Timestamp,
-            count,
-        });
-        let resolved = gpu.device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("keyleaf.timestamps"),
-            size: u64::from(count) * 8,
-            usage: wgpu::BufferUsages::QUERY_RESOLVE | wgpu::BufferUsages::COPY_SRC,
-            mapped_at_creation: false,
-        });
-        Some(Self {
-            queries,
-            resolved,
-            period: f64::from(gpu.queue.get_timestamp_period()) * 1e-6,
-            passes,
-        })
-    }
-
-    /// The queries of a pass; `None` beyond those that there are.
-    fn of(&self, pass: u32) -> Option<(&wgpu::QuerySet, Option<u32>, Option<u32>)> {
-        (pass < self.passes).then(|| (&self.queries, Some(2 * pass), Some(2 * pass + 1)))
-    }
-
-    fn of_update(&self, pass: u32) -> Option<wgpu::ComputePassTimestampWrites<'_>> {
-        let (query_set, beginning_of_pass_write_index, end_of_pass_write_index) = self.of(pass)?;
-        Some(wgpu::ComputePassTimestampWrites {
-            query_set,
-            beginning_of_pass_write_index,
-            end_of_pass_write_index,
-        })
-    }
-
-    fn of_draw(&self) -> Option<wgpu::RenderPassTimestampWrites<'_>> {
-        let (query_set, beginning_of_pass_write_index, end_of_pass_write_index) = self.of(DRAW)?;
-        Some(wgpu::RenderPassTimestampWrites {
-            query_set,
-            beginning_of_pass_write_index,
-            end_of_pass_write_index,
-        })
-    }
-
-    /// Milliseconds of each of the given passes.
-    fn read(&self, gpu: &Headless, passes: Range<u32>) -> Result<Vec<f64>, KeyleafError> {
-        let passes = passes.start..passes.end.min(self.passes);
-        let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        encoder.resolve_query_set(&self.queries, 2 * passes.start..2 * passes.end, &self.resolved, 0);
-        gpu.queue.submit([encoder.finish()]);
-        let size = u64::from(passes.end - passes.start) * 16;
-        let bytes = read_back::read(&gpu.device, &gpu.queue, "timestamps", &self.resolved, 0, size)?;
-        let ticks: Vec<u64> = bytemuck::pod_collect_to_vec(&bytes);
-        let intervals = ticks.as_chunks::<2>().0.iter();
-        Ok(intervals
-            .map(|[begin, end]| end.saturating_sub(*begin) as f64 * self.period)
-            .collect())
-    }
-}
-
-/// The pass of the draw among those with timestamps.
-const DRAW: u32 = 0;
 
 /// One part of a frame.
 #[derive(Debug, Clone, Copy, Default)]
@@ -130,15 +58,15 @@ pub fn frame(
     let mut update = part(gpu, |encoder| match timer {
         Some(timer) => stage.update_timed(encoder, view, |_, phase| {
             timed.push(phase);
-            timer.of_update(DRAW + timed.len() as u32)
+            timer.of_update(Timer::DRAW + timed.len() as u32)
         }),
         None => stage.update(encoder, view),
     })?;
     let mut phases = None;
     if let Some(timer) = timer {
         let sums = phases.insert([0.0; Phase::ALL.len()]);
-        let first = DRAW + 1;
-        for (phase, ms) in timed.iter().zip(timer.read(gpu, first..first + timed.len() as u32)?) {
+        let first = Timer::DRAW + 1;
+        for (phase, ms) in timed.iter().zip(read(timer, gpu, first..first + timed.len() as u32)?) {
             sums[*phase as usize] += ms;
         }
         update.ms = sums.iter().sum();
@@ -149,7 +77,7 @@ pub fn frame(
                 canvas.draw(encoder, stage, view, timer.and_then(Timer::of_draw));
             })?;
             if let Some(timer) = timer {
-                draw.ms = timer.read(gpu, DRAW..DRAW + 1)?.iter().sum();
+                draw.ms = read(timer, gpu, Timer::DRAW..Timer::DRAW + 1)?.iter().sum();
             }
             Some(draw)
         }

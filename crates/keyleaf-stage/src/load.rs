@@ -6,7 +6,7 @@ use keyleaf::draw::{ColourTexture, Look};
 use keyleaf::shading::{Material, Shading};
 use keyleaf::{BackFaces, Metric, Projection, Settings, Threshold, View};
 use keyleaf_scene::scene::{CameraPath, Colouring, Culling, Effect, NamedCamera};
-use keyleaf_scene::{ControlCage, OpenError, OpenOptions, OpenedSurface, PoseError, Scene};
+use keyleaf_scene::{ControlCage, OpenError, OpenOptions, OpenedScene, OpenedSurface, PoseError, Scene};
 use keyleaf_surface::Surface;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -56,6 +56,8 @@ pub struct Loaded {
     pub objects: Vec<LoadedObject>,
     /// What was noted on the way.
     pub notes: Vec<String>,
+    /// The files that the surfaces come from, for a program that watches them.
+    pub files: Vec<PathBuf>,
     /// World box of all surfaces.
     pub bounds: (DVec3, DVec3),
 }
@@ -88,7 +90,21 @@ pub struct LoadedObject {
 /// # Errors
 /// [`LoadError::Open`] names file, place and reason.
 pub fn load(file: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
-    let opened = keyleaf_scene::open(file, options)?;
+    Ok(prepare(keyleaf_scene::open(file, options)?))
+}
+
+/// Loads a scene that was made or changed in code; `file` names it, its folder is where relative paths begin.
+///
+/// # Errors
+/// [`LoadError::Open`] names the field, or the file that is refused.
+pub fn load_scene(scene: Scene, file: &Path) -> Result<Loaded, LoadError> {
+    Ok(prepare(
+        keyleaf_scene::load_scene(scene, file).map_err(OpenError::from)?,
+    ))
+}
+
+fn prepare(opened: OpenedScene) -> Loaded {
+    let files = opened.surfaces.iter().flat_map(|s| s.files.iter().cloned()).collect();
     let mut objects: Vec<LoadedObject> = opened.surfaces.into_iter().map(object).collect();
     let boxes = objects
         .iter()
@@ -98,13 +114,14 @@ pub fn load(file: &Path, options: &LoadOptions) -> Result<Loaded, LoadError> {
     });
     let mut notes: Vec<String> = opened.notes.iter().map(ToString::to_string).collect();
     notes.extend(objects.iter_mut().filter_map(refine_gaps));
-    Ok(Loaded {
+    Loaded {
         file: opened.file,
         scene: opened.scene,
         objects,
         notes,
+        files,
         bounds,
-    })
+    }
 }
 
 /// How much finer the boundaries of a model are drawn than the rest, where some lie along others that they could not be joined with.

@@ -1,6 +1,6 @@
 //! Offscreen targets, and pictures read back from them.
 
-use crate::{Show, Stage};
+use crate::{Pipelines, Show, Stage};
 use glam::UVec2;
 use keyleaf::draw::Target;
 use keyleaf::headless::Headless;
@@ -15,9 +15,10 @@ pub const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 /// What pictures of a channel render to: smooth edges for colours, single samples for data.
 pub fn target(show: Show) -> Target {
     let (colour, samples) = match show {
-        Show::Colour => (wgpu::TextureFormat::Rgba8UnormSrgb, SAMPLES),
+        Show::Colour | Show::Overdraw => (wgpu::TextureFormat::Rgba8UnormSrgb, SAMPLES),
         Show::Normal | Show::Level => (wgpu::TextureFormat::Rgba8Unorm, 1),
         Show::Position => (wgpu::TextureFormat::Rgba32Float, 1),
+        Show::Error => (wgpu::TextureFormat::R32Float, 1),
     };
     Target {
         colour,
@@ -58,6 +59,8 @@ impl Canvas {
                 limit,
             });
         }
+        // Programs that compose in sRGB bytes sample the picture without decoding it.
+        let plain = [target.colour.remove_srgb_suffix()];
         let make = |label, format, sample_count, usage| {
             device.create_texture(&wgpu::TextureDescriptor {
                 label: Some(label),
@@ -71,11 +74,20 @@ impl Canvas {
                 dimension: wgpu::TextureDimension::D2,
                 format,
                 usage,
-                view_formats: &[],
+                view_formats: if usage.contains(wgpu::TextureUsages::TEXTURE_BINDING) {
+                    &plain
+                } else {
+                    &[]
+                },
             })
         };
         use wgpu::TextureUsages as U;
-        let resolved = make("keyleaf.picture", target.colour, 1, U::RENDER_ATTACHMENT | U::COPY_SRC);
+        let resolved = make(
+            "keyleaf.picture",
+            target.colour,
+            1,
+            U::RENDER_ATTACHMENT | U::COPY_SRC | U::TEXTURE_BINDING,
+        );
         let resolved_view = resolved.create_view(&Default::default());
         let samples = if target.samples > 1 {
             make(
@@ -110,6 +122,16 @@ impl Canvas {
         self.size
     }
 
+    /// The picture as bytes, for a program that shows it: sampling decodes nothing.
+    pub fn bytes_view(&self) -> wgpu::TextureView {
+        self.resolved.create_view(&wgpu::TextureViewDescriptor {
+            label: Some("keyleaf.picture.bytes"),
+            format: Some(self.target.colour.remove_srgb_suffix()),
+            usage: Some(wgpu::TextureUsages::TEXTURE_BINDING),
+            ..Default::default()
+        })
+    }
+
     /// Records the draws of a stage for a view.
     pub fn draw(
         &self,
@@ -118,7 +140,6 @@ impl Canvas {
         view: &View,
         timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
     ) {
-        let multisampled = self.target.samples > 1;
         let clear = match stage.show() {
             Show::Colour => wgpu::Color {
                 r: 0.045,
@@ -128,7 +149,35 @@ impl Canvas {
             },
             _ => wgpu::Color::TRANSPARENT,
         };
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        let mut pass = self.begin(encoder, clear, timestamps);
+        stage.draw(&mut pass, view);
+    }
+
+    /// Records the map of a stage, seen by a view: all its leaves, coloured by level, where nothing else is transparent.
+    ///
+    /// # Errors
+    /// [`KeyleafError`] if the pipelines cannot be made.
+    pub fn draw_map(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        stage: &mut Stage,
+        view: &View,
+        pipelines: &mut Pipelines,
+    ) -> Result<(), KeyleafError> {
+        stage.prepare_map(view, pipelines, self.target)?;
+        let mut pass = self.begin(encoder, wgpu::Color::TRANSPARENT, None);
+        stage.draw_map(&mut pass);
+        Ok(())
+    }
+
+    pub(crate) fn begin<'e>(
+        &self,
+        encoder: &'e mut wgpu::CommandEncoder,
+        clear: wgpu::Color,
+        timestamps: Option<wgpu::RenderPassTimestampWrites<'_>>,
+    ) -> wgpu::RenderPass<'e> {
+        let multisampled = self.target.samples > 1;
+        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("keyleaf.draw"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
                 view: &self.samples,
@@ -154,8 +203,7 @@ impl Canvas {
             timestamp_writes: timestamps,
             occlusion_query_set: None,
             multiview_mask: None,
-        });
-        stage.draw(&mut pass, view);
+        })
     }
 
     /// The picture as it was last drawn, row by row from the top: four bytes a pixel, or four floats for positions. Waits for the
@@ -174,13 +222,25 @@ impl Canvas {
             mapped_at_creation: false,
         });
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        self.copy(&mut encoder, &buffer, padded);
+        gpu.queue.submit([encoder.finish()]);
+        let bytes = read_back::read(&gpu.device, &gpu.queue, "the picture", &buffer, 0, buffer.size())?;
+        Ok(bytes
+            .chunks(padded as usize)
+            .flat_map(|line| &line[..row as usize])
+            .copied()
+            .collect())
+    }
+
+    /// Records a copy of the picture to a buffer with rows of so many bytes.
+    pub(crate) fn copy(&self, encoder: &mut wgpu::CommandEncoder, buffer: &wgpu::Buffer, row: u32) {
         encoder.copy_texture_to_buffer(
             self.resolved.as_image_copy(),
             wgpu::TexelCopyBufferInfo {
-                buffer: &buffer,
+                buffer,
                 layout: wgpu::TexelCopyBufferLayout {
                     offset: 0,
-                    bytes_per_row: Some(padded),
+                    bytes_per_row: Some(row),
                     rows_per_image: None,
                 },
             },
@@ -190,12 +250,5 @@ impl Canvas {
                 depth_or_array_layers: 1,
             },
         );
-        gpu.queue.submit([encoder.finish()]);
-        let bytes = read_back::read(&gpu.device, &gpu.queue, "the picture", &buffer, 0, buffer.size())?;
-        Ok(bytes
-            .chunks(padded as usize)
-            .flat_map(|line| &line[..row as usize])
-            .copied()
-            .collect())
     }
 }

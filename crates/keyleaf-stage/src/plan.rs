@@ -94,7 +94,7 @@ pub fn plan(loaded: &Loaded, look: StageLook) -> Result<Plan, keyleaf_shaders::C
     }
     let drawn = effects.channel(look.show, Default::default());
     if let Channel::Colour(_, overlay, atmosphere) = drawn {
-        names.extend((overlay != Default::default()).then(|| format!("{overlay:?}").to_lowercase()));
+        names.extend(overlay.names());
         names.extend((atmosphere != Default::default()).then(|| format!("{atmosphere:?}").to_lowercase()));
     }
     let bytes = surfaces.iter().flat_map(|s| &s.buffers).map(|b| b.bytes).sum();

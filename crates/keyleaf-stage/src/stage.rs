@@ -1,16 +1,16 @@
 //! The quadtrees of a scene with what draws them.
 
-use crate::{LoadError, Loaded};
+use crate::{LoadError, Loaded, LoadedObject, Pipelines};
 use glam::{DVec3, Vec3};
 use keyleaf::draw::{ColourTexture, LeafDraw, LeafPipeline, Look, Sky, Target};
 use keyleaf::headless::Headless;
-use keyleaf::shading::{Atmosphere, Channel, Material, Overlay, Shading};
-use keyleaf::{KeyleafError, Kind, Passes, Phase, Quadtree, Statistics, View};
+use keyleaf::map::{LeafMap, MapPipeline};
+use keyleaf::shading::{Atmosphere, Channel, Material, Overlay, Shading, Tint};
+use keyleaf::{KeyleafError, Phase, Quadtree, Statistics, View};
 use keyleaf_key::Topology;
 use keyleaf_scene::scene::Effect;
 use keyleaf_scene::{ControlCage, PoseError};
 use keyleaf_surface::CornerAttributes;
-use std::collections::HashMap;
 use std::sync::Arc;
 
 /// What a picture shows.
@@ -26,6 +26,10 @@ pub enum Show {
     Level,
     /// World positions relative to the eye, as floats.
     Position,
+    /// Distance of the drawn triangles from the surface in pixels, as floats.
+    Error,
+    /// How often each pixel is drawn.
+    Overdraw,
 }
 
 /// What a stage draws besides what the scene says.
@@ -35,8 +39,8 @@ pub struct StageLook {
     pub show: Show,
     /// Edges of the triangles over the surface.
     pub wireframe: bool,
-    /// Levels as a tint.
-    pub level_tint: bool,
+    /// What the surface is tinted by; none: what the scene says.
+    pub tint: Tint,
 }
 
 /// The effects that a scene and a look name: these are composed into the shaders, and no others.
@@ -62,10 +66,13 @@ impl Effects {
             } else {
                 Atmosphere::None
             },
-            overlay: Overlay::of(
-                look.level_tint || has(|e| matches!(e, Effect::LevelTint)),
-                look.wireframe || has(|e| matches!(e, Effect::Wireframe)),
-            ),
+            overlay: Overlay {
+                tint: match look.tint {
+                    Tint::None if has(|e| matches!(e, Effect::LevelTint)) => Tint::Level,
+                    tint => tint,
+                },
+                wireframe: look.wireframe || has(|e| matches!(e, Effect::Wireframe)),
+            },
         }
     }
 
@@ -76,6 +83,8 @@ impl Effects {
             Show::Normal => Channel::Normal,
             Show::Level => Channel::Level,
             Show::Position => Channel::Position,
+            Show::Error => Channel::Error,
+            Show::Overdraw => Channel::Overdraw,
         }
     }
 }
@@ -86,56 +95,24 @@ pub struct StageObject {
     pub name: String,
     /// Its quadtree.
     pub quadtree: Quadtree,
-    pipeline: Arc<LeafPipeline>,
-    draw: LeafDraw,
-    shading: Shading,
+    drawn: Drawing,
+    map: Option<(Arc<MapPipeline>, LeafMap)>,
     /// The control mesh, if it moves.
     cage: Option<Arc<ControlCage>>,
 }
 
-/// The pipelines that were compiled so far, for one target. Scenes that follow each other on a device can share them.
-#[derive(Default)]
-pub struct Pipelines {
-    passes: HashMap<Kind, Arc<Passes>>,
-    draws: HashMap<(Kind, Channel), Arc<LeafPipeline>>,
-}
-
-impl Pipelines {
-    /// The passes of the update for a kind of quadtree.
-    ///
-    /// # Errors
-    /// [`KeyleafError`] if the kind is impossible.
-    pub fn passes(&mut self, device: &wgpu::Device, kind: Kind) -> Result<Arc<Passes>, KeyleafError> {
-        if let Some(passes) = self.passes.get(&kind) {
-            return Ok(Arc::clone(passes));
-        }
-        let passes = Arc::new(Passes::new(device, kind)?);
-        self.passes.insert(kind, Arc::clone(&passes));
-        Ok(passes)
-    }
-
-    fn draw(
-        &mut self,
-        device: &wgpu::Device,
-        kind: Kind,
-        channel: Channel,
-        target: Target,
-    ) -> Result<Arc<LeafPipeline>, KeyleafError> {
-        if let Some(pipeline) = self.draws.get(&(kind, channel)) {
-            return Ok(Arc::clone(pipeline));
-        }
-        let pipeline = Arc::new(LeafPipeline::new(device, &kind, channel, target)?);
-        self.draws.insert((kind, channel), Arc::clone(&pipeline));
-        Ok(pipeline)
-    }
+/// What draws a quadtree.
+struct Drawing {
+    pipeline: Arc<LeafPipeline>,
+    draw: LeafDraw,
+    shading: Shading,
 }
 
 /// A scene on the GPU, for one kind of picture.
 pub struct Stage {
     /// The surfaces, in the order of the scene.
     pub objects: Vec<StageObject>,
-    device: wgpu::Device,
-    queue: wgpu::Queue,
+    gpu: Headless,
     sky: Option<Sky>,
     light: Shading,
     effects: Effects,
@@ -152,7 +129,7 @@ impl Stage {
         Self::with_pipelines(gpu, loaded, look, target, &mut Pipelines::default())
     }
 
-    /// The same with pipelines that are there already. All must be for one target.
+    /// The same with pipelines that are there already.
     ///
     /// # Errors
     /// As [`Stage::new`].
@@ -163,48 +140,122 @@ impl Stage {
         target: Target,
         pipelines: &mut Pipelines,
     ) -> Result<Self, KeyleafError> {
-        let (device, queue) = (&gpu.device, &gpu.queue);
-        let effects = Effects::of(&loaded.scene, look);
-        let light = loaded.shading();
-        let mut objects = Vec::new();
-        for object in &loaded.objects {
-            let kind = Quadtree::kind(object.surface.as_ref(), &object.settings);
-            let channel = effects.channel(look.show, object.material);
-            let passes = pipelines.passes(device, kind)?;
-            let pipeline = pipelines.draw(device, kind, channel, target)?;
-            let quadtree = Quadtree::new(
-                device,
-                queue,
-                passes,
-                Arc::clone(&object.surface),
-                object.world_from_object,
-                object.settings,
-            )?;
-            let draw = LeafDraw::new(device, queue, &pipeline, &quadtree, &object.look);
-            objects.push(StageObject {
-                name: object.name.clone(),
-                quadtree,
-                pipeline,
-                draw,
-                shading: object.shading(light),
-                cage: object.cage.clone().filter(|cage| cage.motion.is_some()),
-            });
-        }
-        let sky = if effects.sky {
-            Some(Sky::new(device, target)?)
-        } else {
-            None
-        };
-        Ok(Self {
-            objects,
-            device: device.clone(),
-            queue: queue.clone(),
-            sky,
-            light,
-            effects,
+        let mut stage = Self {
+            objects: Vec::new(),
+            gpu: gpu.clone(),
+            sky: None,
+            light: loaded.shading(),
+            effects: Effects::of(&loaded.scene, look),
             show: look.show,
             target,
+        };
+        for object in &loaded.objects {
+            let made = stage.object(object, pipelines)?;
+            stage.objects.push(made);
+        }
+        stage.set_sky()?;
+        Ok(stage)
+    }
+
+    /// Shows the same leaves in another way: another look, other light or effects of the scene. The quadtrees stay as they are.
+    ///
+    /// # Errors
+    /// As [`Stage::new`]; the stage is then as before.
+    pub fn set_look(
+        &mut self,
+        loaded: &Loaded,
+        look: StageLook,
+        pipelines: &mut Pipelines,
+    ) -> Result<(), KeyleafError> {
+        let before = (self.effects, self.show, self.light);
+        self.effects = Effects::of(&loaded.scene, look);
+        self.show = look.show;
+        self.light = loaded.shading();
+        let all = self.objects.iter().zip(&loaded.objects);
+        let drawn: Result<Vec<Drawing>, _> = all.map(|(o, l)| self.drawn(l, &o.quadtree, pipelines)).collect();
+        match drawn {
+            Ok(drawn) => {
+                for (object, drawn) in self.objects.iter_mut().zip(drawn) {
+                    object.drawn = drawn;
+                }
+                self.set_sky()
+            }
+            Err(error) => {
+                (self.effects, self.show, self.light) = before;
+                Err(error)
+            }
+        }
+    }
+
+    /// Takes over the settings of all surfaces. Where one needs other buffers or pipelines, all quadtrees begin again at their roots;
+    /// whether they did.
+    ///
+    /// # Errors
+    /// As [`Stage::new`]; the stage is then as before, unless a setting is out of range.
+    pub fn set_settings(&mut self, loaded: &Loaded, pipelines: &mut Pipelines) -> Result<bool, KeyleafError> {
+        let keeps_buffers = self.objects.iter().zip(&loaded.objects).all(|(object, wanted)| {
+            let (now, wanted) = (object.quadtree.settings(), &wanted.settings);
+            now.capacity == wanted.capacity
+                && now.metric.shader() == wanted.metric.shader()
+                && now.balance == wanted.balance
+                && now.back_faces == wanted.back_faces
+                && now.moving == wanted.moving
+        });
+        if !keeps_buffers {
+            let made: Result<Vec<_>, _> = loaded.objects.iter().map(|o| self.object(o, pipelines)).collect();
+            self.objects = made?;
+            return Ok(true);
+        }
+        for (object, wanted) in self.objects.iter_mut().zip(&loaded.objects) {
+            object.quadtree.set_settings(wanted.settings)?;
+        }
+        Ok(false)
+    }
+
+    fn object(&self, object: &LoadedObject, pipelines: &mut Pipelines) -> Result<StageObject, KeyleafError> {
+        let kind = Quadtree::kind(object.surface.as_ref(), &object.settings);
+        let passes = pipelines.passes(&self.gpu.device, kind)?;
+        let quadtree = Quadtree::new(
+            &self.gpu.device,
+            &self.gpu.queue,
+            passes,
+            Arc::clone(&object.surface),
+            object.world_from_object,
+            object.settings,
+        )?;
+        Ok(StageObject {
+            name: object.name.clone(),
+            drawn: self.drawn(object, &quadtree, pipelines)?,
+            quadtree,
+            map: None,
+            cage: object.cage.clone().filter(|cage| cage.motion.is_some()),
         })
+    }
+
+    fn drawn(
+        &self,
+        object: &LoadedObject,
+        quadtree: &Quadtree,
+        pipelines: &mut Pipelines,
+    ) -> Result<Drawing, KeyleafError> {
+        let kind = Quadtree::kind(object.surface.as_ref(), &object.settings);
+        let channel = self.effects.channel(self.show, object.material);
+        let pipeline = pipelines.draw(&self.gpu.device, kind, channel, self.target)?;
+        Ok(Drawing {
+            draw: LeafDraw::new(&self.gpu.device, &self.gpu.queue, &pipeline, quadtree, &object.look),
+            pipeline,
+            shading: object.shading(self.light),
+        })
+    }
+
+    fn set_sky(&mut self) -> Result<(), KeyleafError> {
+        if self.effects.sky != self.sky.is_some() {
+            self.sky = match self.effects.sky {
+                true => Some(Sky::new(&self.gpu.device, self.target)?),
+                false => None,
+            };
+        }
+        Ok(())
     }
 
     /// What the pipelines render to.
@@ -238,7 +289,7 @@ impl Stage {
                 object.quadtree.set_cage(cage.pose(time))
             } else {
                 let surface = cage.surface_at(time).map_err(|error| no_pose(error.reason))?;
-                object.quadtree.set_surface(&self.queue, surface)
+                object.quadtree.set_surface(&self.gpu.queue, surface)
             };
             posed.map_err(|error| no_pose(error.to_string()))?;
         }
@@ -248,7 +299,7 @@ impl Stage {
     /// Records the passes that refine every surface for a view.
     pub fn update(&mut self, encoder: &mut wgpu::CommandEncoder, view: &View) {
         for object in &mut self.objects {
-            object.quadtree.update(&self.queue, encoder, view);
+            object.quadtree.update(&self.gpu.queue, encoder, view);
         }
     }
 
@@ -262,23 +313,63 @@ impl Stage {
         for (i, object) in self.objects.iter_mut().enumerate() {
             object
                 .quadtree
-                .update_timed(&self.queue, encoder, view, |phase| timestamps(i, phase));
+                .update_timed(&self.gpu.queue, encoder, view, |phase| timestamps(i, phase));
+        }
+    }
+
+    /// Lets the next draws see the leaves from `view`, without refining them for it: a frozen quadtree.
+    pub fn look_from(&mut self, view: &View) {
+        for object in &mut self.objects {
+            object.quadtree.look_from(&self.gpu.queue, view);
         }
     }
 
     /// Records the draws of a view, the sky last.
     pub fn draw(&mut self, pass: &mut wgpu::RenderPass<'_>, view: &View) {
-        let eye = view.eye.as_vec3();
-        for object in &mut self.objects {
-            let shading = Shading { eye, ..object.shading };
-            object
-                .draw
-                .prepare(&self.device, &self.queue, &object.quadtree, &shading);
-            object.draw.draw(pass, &object.pipeline, &object.quadtree);
+        let of_view = |shading: Shading| Shading {
+            eye: view.eye.as_vec3(),
+            pixels_per_unit: view.pixels_per_unit() as f32,
+            ..shading
+        };
+        for StageObject { quadtree, drawn, .. } in &mut self.objects {
+            let shading = of_view(drawn.shading);
+            let (device, queue) = (&self.gpu.device, &self.gpu.queue);
+            drawn.draw.prepare(device, queue, quadtree, &shading);
+            drawn.draw.draw(pass, &drawn.pipeline, quadtree);
         }
         if let Some(sky) = &self.sky {
-            sky.prepare(&self.queue, view, &Shading { eye, ..self.light });
+            sky.prepare(&self.gpu.queue, view, &of_view(self.light));
             sky.draw(pass);
+        }
+    }
+
+    /// Makes what [`draw_map`](Self::draw_map) needs, where it is not there yet, and writes the view of the map.
+    ///
+    /// # Errors
+    /// [`KeyleafError`] if the pipelines cannot be made.
+    pub fn prepare_map(&mut self, view: &View, pipelines: &mut Pipelines, target: Target) -> Result<(), KeyleafError> {
+        let gpu = &self.gpu;
+        for object in &mut self.objects {
+            let map = match &mut object.map {
+                Some(map) => map,
+                none => {
+                    let pipeline = pipelines.map(&gpu.device, object.quadtree.passes().kind(), target)?;
+                    let map = LeafMap::new(&gpu.device, &pipeline, &object.quadtree);
+                    none.insert((pipeline, map))
+                }
+            };
+            map.1.prepare(&gpu.queue, &object.quadtree, view);
+        }
+        Ok(())
+    }
+
+    /// Records a map: all leaves of all surfaces, coloured by level.
+    pub fn draw_map(&mut self, pass: &mut wgpu::RenderPass<'_>) {
+        for object in &mut self.objects {
+            let leaves = object.quadtree.statistics().map_or(0, |s| s.leaves);
+            if let Some((pipeline, map)) = &object.map {
+                map.draw(pass, pipeline, &object.quadtree, leaves);
+            }
         }
     }
 
@@ -313,7 +404,7 @@ impl Stage {
                     .into_iter()
                     .map(|(name, bytes)| (object.name.clone(), name, bytes)),
             );
-            all.push((object.name.clone(), "look", object.draw.bytes()));
+            all.push((object.name.clone(), "look", object.drawn.draw.bytes()));
         }
         all
     }

@@ -52,12 +52,14 @@
 
 pub mod binding;
 mod buffers;
+mod colour_texture;
 pub mod draw;
 mod error;
 mod grid;
 pub mod headless;
 pub mod inspect;
 pub mod layout;
+pub mod map;
 mod passes;
 mod posing;
 mod quadtree;

@@ -188,6 +188,11 @@ impl Passes {
         })
     }
 
+    /// What they are compiled for.
+    pub fn kind(&self) -> Kind {
+        self.kind
+    }
+
     /// The stage of a module that the kind has; `None` for one that it lacks.
     pub(crate) fn stage(&self, name: &str) -> Option<&Stage> {
         self.stages.iter().find(|(n, _)| *n == name).map(|(_, stage)| stage)

@@ -348,6 +348,12 @@ impl Quadtree {
         self.reader.record(encoder, &self.buffers.control);
     }
 
+    /// Lets the next draws see the leaves from `view` without refining them for it: they stay those of the last update, and so do those
+    /// that it listed as visible.
+    pub fn look_from(&mut self, queue: &wgpu::Queue, view: &View) {
+        self.prepare(queue, view);
+    }
+
     /// What the passes read of a view.
     fn prepare(&mut self, queue: &wgpu::Queue, view: &View) {
         self.follow(queue, view);

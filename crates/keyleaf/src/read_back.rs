@@ -31,6 +31,32 @@ impl Snapshot {
 }
 
 impl Quadtree {
+    /// Copies the leaves alone from the GPU, and waits for them.
+    ///
+    /// # Errors
+    /// [`KeyleafError::ReadBack`] if the device is lost.
+    pub fn read_leaves(&self, device: &wgpu::Device, queue: &wgpu::Queue) -> Result<Vec<Leaf>, KeyleafError> {
+        let buffers = self.buffers();
+        let control = read(
+            device,
+            queue,
+            "control",
+            &buffers.control,
+            0,
+            size_of::<Control>() as u64,
+        )?;
+        let count = u64::from(bytemuck::pod_read_unaligned::<Control>(&control).leaves);
+        let bytes = count * size_of::<Leaf>() as u64;
+        Ok(bytemuck::pod_collect_to_vec(&read(
+            device,
+            queue,
+            "leaves",
+            &buffers.leaves,
+            0,
+            bytes,
+        )?))
+    }
+
     /// Copies leaves, states and lists from the GPU, and waits for them.
     ///
     /// # Errors

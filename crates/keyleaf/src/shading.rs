@@ -20,29 +20,75 @@ pub enum Material {
     Matcap,
 }
 
-/// What is drawn over the lit surface.
+/// What the lit surface is tinted by, so that it tells about the leaves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum Overlay {
+pub enum Tint {
     /// Nothing.
     #[default]
     None,
-    /// Level of each leaf as a tint.
+    /// The level of each leaf.
     Level,
-    /// Edges of the triangles.
-    Wireframe,
-    /// Both.
-    LevelWireframe,
+    /// Pairs in red: leaves drawn as one triangle beside a coarser one.
+    Pairs,
+    /// The wish of each leaf, metric over threshold: how near it is to its next change.
+    Wish,
+    /// World normals.
+    Normal,
+    /// Distance of the drawn triangles from the surface, in pixels.
+    Error,
+}
+
+impl Tint {
+    /// All, the plain surface first.
+    pub const ALL: [Self; 6] = [
+        Self::None,
+        Self::Level,
+        Self::Pairs,
+        Self::Wish,
+        Self::Normal,
+        Self::Error,
+    ];
+
+    /// The WGSL file that defines `tint`.
+    pub fn shader(self) -> &'static str {
+        match self {
+            Self::None => "effects/tint_none.wgsl",
+            Self::Level => "effects/tint_level.wgsl",
+            Self::Pairs => "effects/tint_pairs.wgsl",
+            Self::Wish => "effects/tint_wish.wgsl",
+            Self::Normal => "effects/tint_normal.wgsl",
+            Self::Error => "effects/tint_error.wgsl",
+        }
+    }
+
+    /// The WGSL file that defines `leaf_mark`: what the vertices say of their leaf besides its level.
+    fn mark(self) -> &'static str {
+        match self {
+            Self::Wish => "draw/mark_wish.wgsl",
+            Self::Error => "draw/mark_error.wgsl",
+            Self::None | Self::Level | Self::Pairs | Self::Normal => MARK_NONE,
+        }
+    }
+}
+
+const MARK_NONE: &str = "draw/mark_none.wgsl";
+
+/// What is drawn over the lit surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub struct Overlay {
+    /// What it is tinted by.
+    pub tint: Tint,
+    /// Whether the edges of the triangles are drawn.
+    pub wireframe: bool,
 }
 
 impl Overlay {
-    /// The overlay that shows what is asked for.
-    pub fn of(level: bool, wireframe: bool) -> Self {
-        match (level, wireframe) {
-            (false, false) => Self::None,
-            (true, false) => Self::Level,
-            (false, true) => Self::Wireframe,
-            (true, true) => Self::LevelWireframe,
-        }
+    /// The names of what is drawn, as `plan` prints them.
+    pub fn names(self) -> Vec<String> {
+        let tint = (self.tint != Tint::None).then(|| format!("{:?}", self.tint).to_lowercase());
+        tint.into_iter()
+            .chain(self.wireframe.then(|| "wireframe".to_owned()))
+            .collect()
     }
 }
 
@@ -67,15 +113,21 @@ pub enum Channel {
     Level,
     /// World positions relative to the eye, as floats.
     Position,
+    /// Distance of the drawn triangles from the surface in pixels, as floats.
+    Error,
+    /// How often each pixel is drawn: every triangle adds the same, and none hides another.
+    Overdraw,
 }
 
 impl Channel {
     /// WGSL files of the draw, without those that they require and without the surface.
     pub fn files(&self) -> Vec<&'static str> {
         match self {
-            Self::Normal => vec!["draw/normal.wgsl"],
-            Self::Level => vec!["draw/level.wgsl"],
-            Self::Position => vec!["draw/position.wgsl"],
+            Self::Normal => vec!["draw/normal.wgsl", MARK_NONE],
+            Self::Level => vec!["draw/level.wgsl", MARK_NONE],
+            Self::Position => vec!["draw/position.wgsl", MARK_NONE],
+            Self::Error => vec!["draw/error.wgsl"],
+            Self::Overdraw => vec!["draw/overdraw.wgsl", MARK_NONE],
             Self::Colour(material, overlay, atmosphere) => vec![
                 "draw/colour.wgsl",
                 match material {
@@ -88,11 +140,12 @@ impl Channel {
                     Material::Attributes | Material::Matcap => "effects/material_attributes.wgsl",
                     Material::Texture => "effects/material_texture.wgsl",
                 },
-                match overlay {
-                    Overlay::None => "effects/overlay_none.wgsl",
-                    Overlay::Level => "effects/overlay_level.wgsl",
-                    Overlay::Wireframe => "effects/overlay_wireframe.wgsl",
-                    Overlay::LevelWireframe => "effects/overlay_level_wireframe.wgsl",
+                overlay.tint.shader(),
+                overlay.tint.mark(),
+                if overlay.wireframe {
+                    "effects/overlay_wireframe.wgsl"
+                } else {
+                    "effects/overlay_none.wgsl"
                 },
                 match atmosphere {
                     Atmosphere::None => "effects/atmosphere_none.wgsl",
@@ -153,8 +206,8 @@ pub struct Shading {
     pub steepest: f32,
     /// Terrain: rock.
     pub steep: Vec3,
-    /// Padding.
-    pub unused: f32,
+    /// Pixels that a world unit at distance 1 covers.
+    pub pixels_per_unit: f32,
     /// Terrain: snow.
     pub snow: Vec3,
     /// Padding.
@@ -183,7 +236,7 @@ impl Default for Shading {
             high: Vec3::new(0.27, 0.22, 0.13),
             steepest: 1.0,
             steep: Vec3::new(0.25, 0.23, 0.21),
-            unused: 0.0,
+            pixels_per_unit: 1.0,
             snow: Vec3::new(0.82, 0.86, 0.92),
             unused_too: 0.0,
             line_colour: Vec4::new(0.02, 0.03, 0.05, 0.85),

@@ -124,7 +124,7 @@ fn scene_path(scene: &str) -> String {
 }
 
 /// The release program beside the profile folder that this program was built in.
-fn release_program() -> anyhow::Result<PathBuf> {
+pub fn release_program() -> anyhow::Result<PathBuf> {
     let here = env::current_exe().context("cannot find this program's own path")?;
     let target = here
         .ancestors()

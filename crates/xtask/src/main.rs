@@ -4,11 +4,15 @@
 //! |---|---|
 //! | `demo` | set-up, release build, pictures of the default scenes, one camera path, a table |
 //! | `test` | set-up, then every test of the workspace |
-//! | `setup` | looks for a Vulkan driver and installs the software driver where there is none |
+//! | `pictures` | the pictures of the viewer in `docs/pictures/` |
+//! | `setup` | looks for a Vulkan driver and installs the software driver where there is none; the same for Xvfb, which the viewer is tested with |
 //!
 //! Exit codes: 0; 2 for bad use or a machine without a Vulkan driver; else that of the command that failed.
 
 mod demo;
+mod display;
+mod packages;
+mod pictures;
 mod run;
 mod table;
 mod vulkan;
@@ -23,13 +27,14 @@ Set-up, demonstration and tests of keyleaf.
 Usage: cargo xtask <COMMAND> [--no-setup] [ARGUMENTS]
 
 Commands:
-  demo    Render the default scenes to out/demo/, fly a camera path, print figures
-  test    Run all tests; further arguments go to `cargo test`
-  setup   Look for a Vulkan driver; where there is none, install the software driver
-  help    Print this
+  demo     Render the default scenes to out/demo/, fly a camera path, print figures
+  test     Run all tests; further arguments go to `cargo test`
+  pictures Make the pictures of the viewer in docs/pictures/
+  setup    Look for a Vulkan driver; where there is none, install the software driver; the same for Xvfb
+  help     Print this
 
 Options:
-  --no-setup   Do not look for a Vulkan driver (first argument of demo and test)
+  --no-setup   Do not look for a Vulkan driver (first argument of demo, test and pictures)
 
 Examples:
   cargo xtask demo
@@ -53,15 +58,23 @@ fn main() -> ExitCode {
             print!("{HELP}");
             Ok(())
         }
-        "demo" | "setup" if arguments.iter().any(|a| a == "-h" || a == "--help") => {
+        "demo" | "setup" | "pictures" if arguments.iter().any(|a| a == "-h" || a == "--help") => {
             print!("{HELP}");
             Ok(())
         }
-        "setup" => no_arguments(&arguments).and_then(|()| vulkan::set_up()),
+        "setup" => no_arguments(&arguments)
+            .and_then(|()| vulkan::set_up())
+            .and_then(|()| display::set_up()),
         "demo" => no_arguments(&arguments)
             .and_then(|()| set_up(with_setup))
             .and_then(|()| demo::demo()),
-        "test" => set_up(with_setup).and_then(|()| test(&arguments)),
+        "pictures" => no_arguments(&arguments)
+            .and_then(|()| set_up(with_setup))
+            .and_then(|()| set_up_display(with_setup))
+            .and_then(|()| pictures::pictures()),
+        "test" => set_up(with_setup)
+            .and_then(|()| set_up_display(with_setup))
+            .and_then(|()| test(&arguments)),
         _ => Err(Failed::bad_use(format!("there is no command `{command}`\n\n{HELP}")).into()),
     };
     match result {
@@ -79,6 +92,10 @@ fn main() -> ExitCode {
 
 fn set_up(wanted: bool) -> anyhow::Result<()> {
     if wanted { vulkan::set_up() } else { Ok(()) }
+}
+
+fn set_up_display(wanted: bool) -> anyhow::Result<()> {
+    if wanted { display::set_up() } else { Ok(()) }
 }
 
 fn no_arguments(arguments: &[String]) -> anyhow::Result<()> {

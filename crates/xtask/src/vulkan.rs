@@ -8,11 +8,17 @@ use std::env;
 use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
 
-use crate::run::{self, Failed};
+use crate::packages::{self, Elsewhere};
+use crate::run::Failed;
 
 const PACKAGES: [&str; 2] = ["libvulkan1", "mesa-vulkan-drivers"];
+const ELSEWHERE: [Elsewhere; 4] = [
+    ("dnf", "sudo dnf install vulkan-loader mesa-vulkan-drivers"),
+    ("pacman", "sudo pacman -S vulkan-icd-loader vulkan-swrast"),
+    ("zypper", "sudo zypper install libvulkan1 libvulkan_lvp"),
+    ("apk", "sudo apk add vulkan-loader mesa-vulkan-swrast"),
+];
 /// Manifest names of software drivers (Mesa's llvmpipe, SwiftShader).
 const SOFTWARE: [&str; 2] = ["lvp", "swiftshader"];
 
@@ -33,7 +39,7 @@ pub fn set_up() -> anyhow::Result<()> {
                     Failed::bad_use(format!("{missing} among what {name} names; correct it or unset it")).into(),
                 );
             }
-            install(&missing)?;
+            packages::install(&missing, &PACKAGES, &ELSEWHERE)?;
             let driver = find()
                 .map_err(|missing| Failed::bad_use(format!("{} installed, but {missing}", PACKAGES.join(" and "))))?;
             eprintln!("set-up: installed; Vulkan driver {}", driver.display());
@@ -60,60 +66,6 @@ fn find() -> Result<PathBuf, String> {
             "the only Vulkan drivers are for hardware that is not here".into()
         }
     })
-}
-
-/// Installs the software driver with apt-get as root or through sudo without a password.
-fn install(missing: &str) -> anyhow::Result<()> {
-    let has_apt = run::succeeds("apt-get", &["--version"]);
-    let prefix: &[&str] = match (has_apt, is_root(), has_apt && run::succeeds("sudo", &["-n", "true"])) {
-        (true, true, _) => &["env"],
-        (true, false, true) => &["sudo", "-n", "env"],
-        _ => {
-            return Err(Failed::bad_use(format!("{missing}. Run:\n\n    {}\n", advice(has_apt))).into());
-        }
-    };
-    eprintln!("set-up: {missing}; installing {} with apt-get", PACKAGES.join(" and "));
-    let apt_get = |arguments: &[&str]| {
-        let mut command = Command::new(prefix[0]);
-        command
-            .args(&prefix[1..])
-            .args(["DEBIAN_FRONTEND=noninteractive", "apt-get", "--quiet", "--yes"]);
-        run::run(command.args(["--option", "DPkg::Lock::Timeout=120"]).args(arguments))
-    };
-    if let Err(error) = apt_get(&["update"]) {
-        // One broken source of many need not matter.
-        eprintln!("set-up: {error}; trying to install all the same");
-    }
-    let mut arguments = vec!["install", "--no-install-recommends"];
-    arguments.extend(PACKAGES);
-    apt_get(&arguments).map_err(|error| Failed::bad_use(format!("{error:#}. Run:\n\n    {}\n", advice(true))).into())
-}
-
-/// The command that installs a software driver on this distribution.
-fn advice(has_apt: bool) -> &'static str {
-    let others = [
-        ("dnf", "sudo dnf install vulkan-loader mesa-vulkan-drivers"),
-        ("pacman", "sudo pacman -S vulkan-icd-loader vulkan-swrast"),
-        ("zypper", "sudo zypper install libvulkan1 libvulkan_lvp"),
-        ("apk", "sudo apk add vulkan-loader mesa-vulkan-swrast"),
-    ];
-    let other = others
-        .iter()
-        .find(|(manager, _)| !has_apt && run::succeeds(manager, &["--version"]));
-    other.map_or("sudo apt-get install libvulkan1 mesa-vulkan-drivers", |(_, command)| {
-        command
-    })
-}
-
-fn is_root() -> bool {
-    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
-    effective_user(&status) == Some(0)
-}
-
-/// The effective user of a `/proc/self/status`: the second number of the line `Uid:`.
-fn effective_user(status: &str) -> Option<u32> {
-    let line = status.lines().find_map(|line| line.strip_prefix("Uid:"))?;
-    line.split_whitespace().nth(1)?.parse().ok()
 }
 
 /// A device that a hardware driver can open: DRM render nodes, NVIDIA's, and that of WSL.
@@ -242,12 +194,6 @@ mod tests {
         assert_eq!(library_path(manifest), Some("/usr/lib/libvulkan_lvp.so"));
         assert_eq!(library_path("{}"), None);
         assert_eq!(library_path("{\"library_path\": 3"), None);
-    }
-
-    #[test]
-    fn effective_user_is_the_second_number() {
-        assert_eq!(effective_user("Name:\tx\nUid:\t1000\t0\t0\t0\n"), Some(0));
-        assert_eq!(effective_user("Name:\tx\n"), None);
     }
 
     #[test]

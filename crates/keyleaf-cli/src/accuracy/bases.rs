@@ -102,6 +102,7 @@ fn scene_of(surface: Arc<dyn Surface>) -> Loaded {
             colouring: Colouring::Plain,
         }],
         notes: Vec::new(),
+        files: Vec::new(),
         bounds,
     }
 }

@@ -121,6 +121,7 @@ pub fn with_object(loaded: &Loaded, object: LoadedObject) -> Loaded {
         scene: loaded.scene.clone(),
         objects: vec![object],
         notes: Vec::new(),
+        files: Vec::new(),
         bounds: loaded.bounds,
     }
 }

@@ -151,6 +151,32 @@ impl Scene {
     }
 }
 
+impl CameraPath {
+    /// Reads a path from the text of a path file: what a scene has in its list of paths.
+    ///
+    /// # Errors
+    /// [`SceneError`]: the text is no path, or holds a value out of range.
+    pub fn from_ron(text: &str, file: &Path) -> Result<Self, SceneError> {
+        let path: Self = options()
+            .from_str(text)
+            .map_err(|error| error::syntax(file, text, &error))?;
+        validate::validate_path(&path).map_err(|problem| problem.at(file, text))?;
+        Ok(path)
+    }
+
+    /// The path as the text of a path file, with every field.
+    ///
+    /// # Errors
+    /// [`SceneError::Write`] if a number has no RON form.
+    pub fn to_ron(&self) -> Result<String, SceneError> {
+        let pretty = ron::ser::PrettyConfig::new().struct_names(false).compact_arrays(true);
+        let text = options().to_string_pretty(self, pretty);
+        text.map_err(|error| SceneError::Write {
+            reason: error.to_string(),
+        })
+    }
+}
+
 /// `Some` may be left out, and an enum's struct needs no second pair of parentheses.
 fn options() -> ron::Options {
     ron::Options::default()

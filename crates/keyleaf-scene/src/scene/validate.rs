@@ -328,6 +328,14 @@ fn check_view(field: &str, eye: [f64; 3], look_at: [f64; 3], fov: f64) -> Checke
     between(&format!("{field}.fov"), fov, 0.0, 180.0)
 }
 
+/// Checks a path that is a file of its own.
+pub(super) fn validate_path(path: &CameraPath) -> Checked {
+    check_path("", path).map_err(|mut problem| {
+        problem.field = problem.field.trim_start_matches('.').to_owned();
+        problem
+    })
+}
+
 fn check_path(field: &str, path: &CameraPath) -> Checked {
     if path.keys.is_empty() {
         return Err(Problem::new(

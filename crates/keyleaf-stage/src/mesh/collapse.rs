@@ -4,7 +4,7 @@ use glam::DVec3;
 
 /// Removes triangles with equal corners, and makes one vertex of the corners that are equal, so that what was closed stays closed. The
 /// normals of those add up. Other vertices at equal places stay apart.
-pub fn collapse(positions: &mut Vec<[f32; 3]>, normals: &mut Vec<DVec3>, triangles: &mut Vec<[u32; 3]>) {
+pub(super) fn collapse(positions: &mut Vec<[f32; 3]>, normals: &mut Vec<DVec3>, triangles: &mut Vec<[u32; 3]>) {
     let bits = |vertex: u32| positions[vertex as usize].map(f32::to_bits);
     let mut same: Vec<u32> = (0..positions.len() as u32).collect();
     for &[a, b, c] in triangles.iter() {

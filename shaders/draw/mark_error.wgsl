@@ -1,0 +1,36 @@
+// Triangles are marked with how far they are from the surface, in pixels: the surface in the middle of the drawn edges at a vertex,
+// from the middle of their ends. Six evaluations a vertex.
+// requires: draw/vertex.wgsl, shared/shading.wgsl
+
+fn leaf_mark(slot: u32, place: Place, is_pair: bool, i: u32, j: u32, here: vec3f) -> u32 {
+    let k = frame.base_grid;
+    if place.level + k >= MAX_LEVEL {
+        return 0u;
+    }
+    let at = vec2i(vec2u(i, j));
+    let n = 1i << k;
+    var worst = 0.0;
+    for (var edge = 0u; edge < 3u; edge++) {
+        var step = select(select(vec2i(1, -1), vec2i(0, 1), edge == 1u), vec2i(1, 0), edge == 0u);
+        if !is_on_grid(at + step, n) {
+            step = -step;
+        }
+        if !is_on_grid(at + step, n) {
+            continue;
+        }
+        let there = vec2u(at + step);
+        let between = vec2u(2 * at + step);
+        let end = surface_point(place.face, grid_coord(place, is_pair, there.x, there.y, k));
+        let middle = surface_point(place.face, grid_coord(place, is_pair, between.x, between.y, k + 1u));
+        let away = middle - mix(here, end, 0.5);
+        worst = max(worst, length((frame.world_from_object * vec4f(away, 0.0)).xyz));
+    }
+    let seen = frame.view_from_object * vec4f(here - frame.eye, 0.0);
+    let clip = frame.clip_from_view * vec4f(seen.xyz, 1.0);
+    let pixels = worst * shading.pixels_per_unit / max(clip.w, frame.near);
+    return pack2x16float(vec2f(0.0, min(pixels, 60000.0)));
+}
+
+fn is_on_grid(at: vec2i, n: i32) -> bool {
+    return at.x >= 0 && at.y >= 0 && at.x + at.y <= n;
+}

@@ -120,7 +120,7 @@ pub fn of_patches(
     patches: &[Whole],
     most: [usize; 2],
 ) -> (Vec<Option<MeanBounds>>, Option<MeanBounds>) {
-    let mut parts = Vec::with_capacity(most[0].max(patches.len()));
+    let mut parts = Vec::with_capacity(2 * patches.len());
     for (patch, whole) in patches.iter().enumerate() {
         parts.push(Part::new(shape, whole.net, patch, &whole.frame, whole.scale));
     }

@@ -17,7 +17,7 @@
 //!
 //! # Costs
 //!
-//! About 2 µs a part. Where covariances are alike a few parts do; where disks with conditions of 1e4 are turned against each other,
+//! Some 4 µs a part. Where covariances are alike a few parts do; where disks with conditions of 1e4 are turned against each other,
 //! some hundreds.
 
 use super::centred::{Findings, findings};

@@ -9,7 +9,6 @@ struct PoseParams {
     faces: u32,
     half_edges: u32,
     normals: u32, // entry of table A with the mean normal of face 0
-    records: u32, // word of table B with the record of half-edge 0
 }
 
 @group(0) @binding(0) var<uniform> pose: PoseParams;
@@ -168,7 +167,7 @@ fn pose_edges(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) grou
     let other_at = own_bound_at(select(other, half_edge, other == NONE));
     let size = max(scratch[own_at], scratch[other_at]);
     let deviation = max(scratch[own_at + 1u], scratch[other_at + 1u]);
-    let record = pose.records + HALF_EDGE_WORDS * half_edge;
+    let record = HALF_EDGE_WORDS * half_edge;
     surface_b[record + 2u] = bitcast<u32>(size);
     surface_b[record + 3u] = bitcast<u32>(size);
     surface_b[record + 4u] = bitcast<u32>(deviation);

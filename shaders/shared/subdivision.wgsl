@@ -4,10 +4,9 @@
 
 struct SubdivisionParams {
     faces: u32,
-    normals: u32,    // entry of table A with the mean normal of face 0
-    half_edges: u32, // word of table B with the record of half-edge 0
-    nodes: u32,      // word of table B with the first node
-    margin: f32,     // rounding error of a position and what terminal patches are off, from above
+    normals: u32, // entry of table A with the mean normal of face 0
+    nodes: u32,   // word of table B with the first node
+    margin: f32,  // rounding error of a position and what terminal patches are off, from above
 }
 
 @group(1) @binding(0) var<uniform> surface: SubdivisionParams;
@@ -30,7 +29,7 @@ fn has_children(node: u32) -> bool {
 }
 
 fn half_edge_record(half_edge: u32) -> u32 {
-    return surface.half_edges + HALF_EDGE_WORDS * half_edge;
+    return HALF_EDGE_WORDS * half_edge;
 }
 
 struct Site {

@@ -1,11 +1,13 @@
 //! Bounds of the f64 twins against the surfaces themselves.
 
 mod fixtures;
+mod random;
 
-use fixtures::{Fixture, Random, fixtures};
+use fixtures::{Fixture, fixtures};
 use glam::DVec3;
 use keyleaf_key::{ONE, Place, RootPoint, neighbour};
 use keyleaf_surface::{Surface, SurfaceBound};
+use random::Random;
 
 /// Points of a leaf, its corners first.
 fn points_of(leaf: &Place, random: &mut Random) -> Vec<RootPoint> {

@@ -2,13 +2,15 @@
 
 mod device;
 mod fixtures;
+mod random;
 mod shaders;
 
 use device::{Device, Evaluated, evaluate};
-use fixtures::{Fixture, Random, fixtures};
+use fixtures::{Fixture, fixtures};
 use glam::{DVec3, Vec3};
 use keyleaf_key::{ONE, Place, RootPoint, Site, Topology, neighbour};
 use keyleaf_surface::Surface;
+use random::Random;
 use std::collections::HashMap;
 
 const EPSILON: f64 = 1.0 / 16_777_216.0;
@@ -95,7 +97,7 @@ fn random_patches_of_every_degree_agree_with_the_twin() {
         return;
     };
     for seed in 0..3 {
-        let surface = fixtures::random_patches(seed);
+        let surface = fixtures::patches::random_patches(seed);
         let source = shaders::composed(surface.shader());
         let mut random = Random(seed);
         let points: Vec<RootPoint> = (0..20_000).map(|_| random.point(surface.topology())).collect();
@@ -115,7 +117,10 @@ fn random_patches_of_every_degree_agree_with_the_twin() {
             }
         }
         println!("seed {seed}: {worst:.2} eps, {worst_angle:.1e} rad");
-        assert!(worst <= 16.0 * fixtures::RANDOM_PATCH_SIZE, "seed {seed}: {worst} eps");
+        assert!(
+            worst <= 16.0 * fixtures::patches::RANDOM_PATCH_SIZE,
+            "seed {seed}: {worst} eps"
+        );
         assert!(worst_angle <= 1e-4, "seed {seed}: {worst_angle} rad at {worst_at:?}");
     }
 }

@@ -1,6 +1,7 @@
 //! The WGSL modules without a device: they are valid, and their uniforms are laid out as the tables are.
 
 mod fixtures;
+mod random;
 mod shaders;
 
 use naga::valid::{Capabilities, ValidationFlags, Validator};

@@ -17,7 +17,7 @@
 //!
 //! # Costs
 //!
-//! About 2 µs a part. Where covariances are alike a few parts do; where disks with conditions of 1e4 are turned against each other,
+//! Some 4 µs a part. Where covariances are alike a few parts do; where disks with conditions of 1e4 are turned against each other,
 //! some hundreds.
 
 use super::centred::{Findings, findings};
@@ -120,7 +120,7 @@ pub fn of_patches(
     patches: &[Whole],
     most: [usize; 2],
 ) -> (Vec<Option<MeanBounds>>, Option<MeanBounds>) {
-    let mut parts = Vec::with_capacity(most[0].max(patches.len()));
+    let mut parts = Vec::with_capacity(2 * patches.len());
     for (patch, whole) in patches.iter().enumerate() {
         parts.push(Part::new(shape, whole.net, patch, &whole.frame, whole.scale));
     }

@@ -198,8 +198,9 @@ impl<const N: usize> Lanes<N> {
     pub fn extent(&self, map: DMat3) -> [DVec3; 2] {
         let mapped = self.information_mapped(map);
         let mut extent = [DVec3::INFINITY, DVec3::NEG_INFINITY];
-        for k in 0..N {
-            let point = DVec3::new(mapped[0][k], mapped[1][k], mapped[2][k]);
+        let [x, y, z] = &mapped;
+        for ((&x, &y), &z) in x.iter().zip(y).zip(z) {
+            let point = DVec3::new(x, y, z);
             extent = [extent[0].min(point), extent[1].max(point)];
         }
         extent

@@ -1,17 +1,16 @@
 //! The rules of Catmull and Clark (1978) with those of DeRose, Kass and Truong (1998) for creases.
 
 use super::Creasing;
-use super::refinement::{Child, Children, Masks, Refinement, SharedChild, centroid, crease_mask};
+use super::refinement::{Child, Children, Masks, Refinement, SharedChild, centroid};
 use super::ring::{Fan, Ring, Spoke};
-use super::sharpness::VertexRule;
 use super::stencil::Stencil;
 
 /// The masks of Catmull-Clark subdivision.
 pub struct CatmullClark;
 
-impl CatmullClark {
+impl Masks for CatmullClark {
     /// (n − 2)/n of the vertex, 1/n² of every neighbour and of every new face point.
-    fn smooth(ring: &Ring, fan: &Fan) -> Stencil {
+    fn smooth(&self, ring: &Ring, fan: &Fan) -> Stencil {
         let n = fan.faces.len() as f64;
         let weight = 1.0 / (n * n);
         let mut stencil = Stencil(vec![(fan.vertex, (n - 2.0) / n)]);
@@ -20,20 +19,6 @@ impl CatmullClark {
             stencil.add_stencil(&centroid(ring, face), weight);
         }
         stencil.merged()
-    }
-}
-
-impl Masks for CatmullClark {
-    fn corner(&self, ring: &Ring, fan: &Fan, creasing: Creasing) -> Stencil {
-        let by = |rule| match rule {
-            VertexRule::Smooth => Self::smooth(ring, fan),
-            VertexRule::Crease(ends) => crease_mask(fan, ends),
-            VertexRule::Corner => Stencil::of(fan.vertex),
-        };
-        match fan.rules(creasing) {
-            [(now, _), (_, 0.0)] => by(now),
-            [(now, share), (next, rest)] => Stencil::sum([(&by(now), share), (&by(next), rest)]),
-        }
     }
 
     fn edge(&self, ring: &Ring, ends: [u32; 2], faces: [u32; 2]) -> Stencil {
@@ -68,7 +53,7 @@ fn shared_child(step: &mut Step<'_>, corner: usize) -> SharedChild {
     let own = step.ring.fans[corner].own;
     child_face(step, corner, own);
     let fans = vec![
-        fan_of_corner(step, corner),
+        step.fan_of_corner(corner, child_face),
         fan_of_edge(step, corner, corner),
         fan_of_centre(step, corner),
         fan_of_edge(step, previous, corner),
@@ -89,19 +74,6 @@ fn child_face(step: &mut Step<'_>, corner: usize, place: usize) -> u32 {
             step.edge_point(corner, after),
         ]
     })
-}
-
-fn fan_of_corner(step: &mut Step<'_>, corner: usize) -> Fan {
-    let fan = &step.ring.fans[corner];
-    Fan {
-        vertex: step.corner_point(corner),
-        sharpness: step.corner_sharpness(corner),
-        own: fan.own,
-        spokes: (0..fan.spokes.len())
-            .map(|k| step.spoke_from_corner(corner, k))
-            .collect(),
-        faces: (0..fan.faces.len()).map(|k| child_face(step, corner, k)).collect(),
-    }
 }
 
 /// The fan about the point of the edge from corner `start`, seen from the child at corner `child`, one of its ends.

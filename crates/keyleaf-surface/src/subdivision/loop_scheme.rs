@@ -1,9 +1,8 @@
 //! The rules of Loop (1987) with creases as in Catmull-Clark subdivision (Hoppe et al. 1994).
 
 use super::Creasing;
-use super::refinement::{Child, Children, Masks, Refinement, SharedChild, crease_mask};
+use super::refinement::{Child, Children, Masks, Refinement, SharedChild};
 use super::ring::{Fan, Ring, Spoke};
-use super::sharpness::VertexRule;
 use super::stencil::Stencil;
 use crate::LoopWeights;
 
@@ -11,23 +10,13 @@ use crate::LoopWeights;
 pub struct LoopScheme(pub LoopWeights);
 
 impl Masks for LoopScheme {
-    fn corner(&self, _: &Ring, fan: &Fan, creasing: Creasing) -> Stencil {
-        let smooth = || {
-            let n = fan.spokes.len();
-            let beta = self.0.beta(n);
-            let mut stencil = Stencil(vec![(fan.vertex, 1.0 - n as f64 * beta)]);
-            fan.spokes.iter().for_each(|spoke| stencil.add(spoke.vertex, beta));
-            stencil
-        };
-        let by = |rule| match rule {
-            VertexRule::Smooth => smooth(),
-            VertexRule::Crease(ends) => crease_mask(fan, ends),
-            VertexRule::Corner => Stencil::of(fan.vertex),
-        };
-        match fan.rules(creasing) {
-            [(now, _), (_, 0.0)] => by(now),
-            [(now, share), (next, rest)] => Stencil::sum([(&by(now), share), (&by(next), rest)]),
-        }
+    /// 1 − nβ of the vertex, β of every neighbour.
+    fn smooth(&self, _: &Ring, fan: &Fan) -> Stencil {
+        let n = fan.spokes.len();
+        let beta = self.0.beta(n);
+        let mut stencil = Stencil(vec![(fan.vertex, 1.0 - n as f64 * beta)]);
+        fan.spokes.iter().for_each(|spoke| stencil.add(spoke.vertex, beta));
+        stencil
     }
 
     fn edge(&self, ring: &Ring, ends: [u32; 2], faces: [u32; 2]) -> Stencil {
@@ -81,7 +70,7 @@ fn shared_child(step: &mut Step<'_>, part: Part) -> SharedChild {
     };
     child_face(step, corner, step.ring.fans[corner].own);
     let fans = vec![
-        fan_of_corner(step, corner),
+        step.fan_of_corner(corner, child_face),
         fan_of_edge(step, corner, 2),
         fan_of_edge(step, (corner + 2) % 3, 0),
     ];
@@ -107,19 +96,6 @@ fn middle_of_own(step: &mut Step<'_>) -> u32 {
             .map(|start| step.edge_point(start, step.ring.fans[start].own))
             .to_vec()
     })
-}
-
-fn fan_of_corner(step: &mut Step<'_>, corner: usize) -> Fan {
-    let fan = &step.ring.fans[corner];
-    Fan {
-        vertex: step.corner_point(corner),
-        sharpness: step.corner_sharpness(corner),
-        own: fan.own,
-        spokes: (0..fan.spokes.len())
-            .map(|k| step.spoke_from_corner(corner, k))
-            .collect(),
-        faces: (0..fan.faces.len()).map(|k| child_face(step, corner, k)).collect(),
-    }
 }
 
 /// The fan about the point of the edge from corner `start`, seen from the child at its end (0), in the middle (1) or at its start (2).

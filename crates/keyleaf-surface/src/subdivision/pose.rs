@@ -11,7 +11,6 @@
 
 use super::bound;
 use super::neighbourhoods::{Kind, Neighbourhoods};
-use super::tables::first_record;
 use super::{Subdivision, SubdivisionScheme};
 use crate::surface::uniform;
 use crate::{PoseTables, Surface};
@@ -33,8 +32,6 @@ struct PoseParams {
     half_edges: u32,
     /// The entry of `surface_a` of the first normal.
     normals: u32,
-    /// The word of `surface_b` of the first half-edge.
-    records: u32,
 }
 
 /// The WGSL file about the patches of a scheme.
@@ -77,7 +74,6 @@ pub fn tables(surface: &Subdivision) -> PoseTables {
             faces: topology.face_count(),
             half_edges: topology.half_edge_count(),
             normals: all.entries as u32,
-            records: first_record(topology),
         }),
         words,
         rows: kinds.rows,

@@ -2,7 +2,7 @@
 
 use super::Creasing;
 use super::ring::{Fan, Ring, Spoke};
-use super::sharpness::{is_semi_sharp, mean_of_others};
+use super::sharpness::{VertexRule, decremented, is_semi_sharp, mean_of_others};
 use super::stencil::Stencil;
 
 /// What a vertex of the finer mesh comes from.
@@ -79,11 +79,24 @@ impl SharedChild {
 
 /// Masks of a scheme.
 pub trait Masks {
-    /// The point of the corner of a fan.
-    fn corner(&self, ring: &Ring, fan: &Fan, creasing: Creasing) -> Stencil;
+    /// The point of the corner of a fan where nothing is sharp.
+    fn smooth(&self, ring: &Ring, fan: &Fan) -> Stencil;
 
     /// The point of an edge between two faces, as if it were smooth.
     fn edge(&self, ring: &Ring, ends: [u32; 2], faces: [u32; 2]) -> Stencil;
+
+    /// The point of the corner of a fan.
+    fn corner(&self, ring: &Ring, fan: &Fan, creasing: Creasing) -> Stencil {
+        let by = |rule| match rule {
+            VertexRule::Smooth => self.smooth(ring, fan),
+            VertexRule::Crease(ends) => crease_mask(fan, ends),
+            VertexRule::Corner => Stencil::of(fan.vertex),
+        };
+        match fan.rules(creasing) {
+            [(now, _), (_, 0.0)] => by(now),
+            [(now, share), (next, rest)] => Stencil::sum([(&by(now), share), (&by(next), rest)]),
+        }
+    }
 }
 
 /// Children in the making, one after the other. Vertices and faces of a child are numbered as they are asked for.
@@ -238,9 +251,18 @@ impl<'a, M: Masks> Refinement<'a, M> {
         }
     }
 
-    /// Sharpness of the point of a corner.
-    pub fn corner_sharpness(&self, corner: usize) -> f64 {
-        super::sharpness::decremented(self.ring.fans[corner].sharpness)
+    /// The fan about the point of a corner; `child_face` makes the child at a corner of the face at a place of the corner's fan.
+    pub fn fan_of_corner(&mut self, corner: usize, child_face: impl Fn(&mut Self, usize, usize) -> u32) -> Fan {
+        let fan = &self.ring.fans[corner];
+        Fan {
+            vertex: self.corner_point(corner),
+            sharpness: decremented(fan.sharpness),
+            own: fan.own,
+            spokes: (0..fan.spokes.len())
+                .map(|k| self.spoke_from_corner(corner, k))
+                .collect(),
+            faces: (0..fan.faces.len()).map(|k| child_face(self, corner, k)).collect(),
+        }
     }
 }
 
@@ -252,7 +274,7 @@ pub fn centroid(ring: &Ring, face: u32) -> Stencil {
 }
 
 /// The mask of a crease, the same in both schemes: (1, 6, 1) / 8.
-pub fn crease_mask(fan: &Fan, ends: [usize; 2]) -> Stencil {
+fn crease_mask(fan: &Fan, ends: [usize; 2]) -> Stencil {
     let [a, b] = ends.map(|end| fan.spokes[end].vertex);
     Stencil(vec![(fan.vertex, 0.75), (a, 0.125), (b, 0.125)])
 }

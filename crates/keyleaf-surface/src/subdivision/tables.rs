@@ -6,7 +6,6 @@
 //! relative to the origin, the others are differences to it. Then the mean normals of the faces.
 //!
 //! `surface_b`, words:
-//! - a face: the index of its first half-edge; one more for the number of half-edges;
 //! - a half-edge, 8 words: the half-edge that owns the edge; the half-edge whose start owns the corner at its start; bits of three bounds
 //!   (size, ball, deviation); the word of the root node of the domain of this number, and the entry of its first patch; its face. A quad of a
 //!   Catmull-Clark surface and a triangle of a Loop surface have one domain, at their first half-edge; both words of the others are 0. Other
@@ -39,8 +38,6 @@ struct SubdivisionParams {
     faces: u32,
     /// The entry of `surface_a` of the first normal.
     normals: u32,
-    /// The word of `surface_b` of the first half-edge.
-    half_edges: u32,
     /// The word of `surface_b` of the first node.
     nodes: u32,
     /// The rounding error of a position, and how far terminal patches are off, from above.
@@ -67,17 +64,11 @@ pub fn tables(surface: &Subdivision, origin: DVec3) -> SurfaceTables {
     }
 }
 
-/// The word of `surface_b` of the first half-edge.
-pub fn first_record(topology: &Topology) -> u32 {
-    topology.face_count() + 1
-}
-
-/// Faces, half-edges and nodes.
+/// Half-edges and nodes.
 pub struct TopologyWords {
     /// `surface_b`.
     pub words: Vec<u32>,
     faces: u32,
-    half_edges: u32,
     nodes: u32,
 }
 
@@ -90,20 +81,16 @@ impl TopologyWords {
         bounds: &[RootBound],
         entry_of: impl Fn(usize) -> usize,
     ) -> Self {
-        let faces = topology.face_count();
-        let half_edges = first_record(topology) as usize;
-        let first_node = half_edges + WORDS_OF_HALF_EDGE * topology.half_edge_count() as usize;
+        let first_node = WORDS_OF_HALF_EDGE * topology.half_edge_count() as usize;
         let (nodes, roots) = node_words(all, first_node);
-        let mut words: Vec<u32> = (0..faces).map(|face| topology.first_half_edge(face)).collect();
-        words.push(topology.half_edge_count());
+        let mut words = Vec::with_capacity(first_node + nodes.len());
         for (at, bound) in topology.roots().zip(bounds) {
             words.extend(half_edge_words(topology, all, &roots, &entry_of, &at, bound));
         }
         words.extend(nodes);
         Self {
             words,
-            faces,
-            half_edges: half_edges as u32,
+            faces: topology.face_count(),
             nodes: first_node as u32,
         }
     }
@@ -113,7 +100,6 @@ impl TopologyWords {
         uniform(&SubdivisionParams {
             faces: self.faces,
             normals: normals as u32,
-            half_edges: self.half_edges,
             nodes: self.nodes,
             margin: round_up(margin),
         })

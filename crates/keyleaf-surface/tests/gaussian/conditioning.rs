@@ -4,7 +4,7 @@
 //! of 2⁻²⁴ of the extent, so that the bound 64 κ 2⁻²⁴ reads 64 κ.
 
 use crate::models::{Random, disk};
-use crate::oracles::oracle;
+use crate::oracle_tables::oracle;
 use glam::{DMat3, DVec3};
 use keyleaf_surface::gaussian::{Covariance, Dual, DualFrame, Symmetric3};
 

@@ -4,7 +4,7 @@ use crate::models::Random;
 use crate::products::{any_point, condition, meshes, product, shipped};
 use glam::{DVec3, Vec3};
 use keyleaf_key::{ONE, RootPoint};
-use keyleaf_surface::gaussian::CovarianceMesh;
+use keyleaf_surface::gaussian::{CovarianceMesh, GaussianProduct};
 use keyleaf_surface::{SubdivisionScheme, Surface, SurfaceTables};
 
 const EPS: f64 = 1.0 / 16_777_216.0;
@@ -49,13 +49,13 @@ impl Patch<'_> {
 }
 
 /// The node of a point, with its parameters: of a quad u, v, of a triangle barycentric coordinates.
-fn patch<'a>(tables: &'a SurfaceTables, scheme: SubdivisionScheme, at: RootPoint) -> (Patch<'a>, [f32; 3]) {
-    let record = (word(tables, 2) + 8 * tables.b[at.face as usize]) as usize;
+fn patch<'a>(surface: &GaussianProduct, tables: &'a SurfaceTables, at: RootPoint) -> (Patch<'a>, [f32; 3]) {
+    let record = 8 * surface.topology().first_half_edge(at.face) as usize;
     let (mut node, first) = (tables.b[record + 5], tables.b[record + 6] as usize);
     let [x, y, z] = [at.x, at.y, at.z()].map(u64::from);
     let is_patch = |node: u32| tables.b[node as usize] >> 31 == 1;
     let number = |node: u32| (tables.b[node as usize] & 0x7fff_ffff) as usize;
-    if scheme == SubdivisionScheme::CatmullClark {
+    if surface.settings().scheme == SubdivisionScheme::CatmullClark {
         let (a, b) = (at.root, (at.root + 1) % 4);
         let sum = |has: fn(u32) -> bool| z + 2 * (x * u64::from(has(a)) + y * u64::from(has(b)));
         let (mut u, mut v) = (sum(|corner| corner == 1 || corner == 2), sum(|corner| corner >= 2));
@@ -221,7 +221,7 @@ fn measured(mesh: &CovarianceMesh, scheme: SubdivisionScheme) -> ([f64; 2], f64,
     let origin = (low + high) / 2.0 + DVec3::new(1e-3, 0.0, -2e-3);
     let tables = surface.tables(origin);
     assert_eq!(tables.a.len() as u32, 4 * (word(&tables, 1) + word(&tables, 0)));
-    let margin = f64::from(f32::from_bits(word(&tables, 4)));
+    let margin = f64::from(f32::from_bits(word(&tables, 3)));
     let (mut errors, mut of_margin, mut angle) = ([0.0f64; 2], 0.0f64, 0.0f64);
     let mut random = Random(99);
     for _ in 0..1500 {
@@ -230,7 +230,7 @@ fn measured(mesh: &CovarianceMesh, scheme: SubdivisionScheme) -> ([f64; 2], f64,
             continue;
         }
         let exact = surface.approximate(at);
-        let (patch, inner) = patch(&tables, scheme, at);
+        let (patch, inner) = patch(&surface, &tables, at);
         for (solver, error) in [solve_by_ldlt as Solver, solve_by_adjugate]
             .into_iter()
             .zip(&mut errors)
@@ -282,7 +282,7 @@ fn the_shader_of_equal_round_covariances_is_plain_subdivision() {
             if scheme == SubdivisionScheme::CatmullClark && surface.topology().corner_count(at.face) != 4 {
                 continue;
             }
-            let (patch, inner) = patch(&tables, scheme, at);
+            let (patch, inner) = patch(&surface, &tables, at);
             let (position, _) = frame(&patch, inner, solve_by_ldlt);
             let off = position.as_dvec3().distance(plain.approximate(at).position) / (EPS * largest);
             assert!(off <= 16.0, "{name}: {off}");

@@ -5,6 +5,8 @@ mod conditioning;
 mod covariances;
 mod emulation;
 mod models;
+#[path = "../oracle_tables/mod.rs"]
+mod oracle_tables;
 mod oracles;
 mod patches;
 mod products;

@@ -1,12 +1,12 @@
 //! Gaussian-product subdivision of whole meshes against tables made by independent code, where the folder that holds them is there.
 
 use crate::models::{Random, cube, mesh};
+use crate::oracle_tables::{oracle, rows};
 use crate::refine::{Limit, Refined, Scheme};
 use glam::{DMat3, DVec3};
 use keyleaf_surface::ControlMesh;
 use keyleaf_surface::gaussian::{Conditioning, CovarianceMesh, Dual, DualFrame, DualJet, MeanJet, Symmetric3};
 use serde_json::Value;
-use std::path::Path;
 
 pub const NAMES: [&str; 7] = [
     "cone_concave_warren",
@@ -18,39 +18,19 @@ pub const NAMES: [&str; 7] = [
     "grid4x4_boundary",
 ];
 
-pub fn oracle(name: &str) -> Option<Value> {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../../../shared/oracles")
-        .join(name);
-    let Ok(text) = std::fs::read_to_string(&file) else {
-        println!("skipped: there is no {}", file.display());
-        return None;
-    };
-    Some(serde_json::from_str(&text).expect("JSON"))
-}
-
-fn floats(value: &Value) -> Vec<f64> {
-    let array = value.as_array().expect("an array");
-    array.iter().map(|x| x.as_f64().unwrap_or(f64::NAN)).collect()
-}
-
-pub fn list(value: &Value) -> Vec<Vec<f64>> {
-    value.as_array().expect("an array").iter().map(floats).collect()
-}
-
 pub fn read(table: &Value) -> (Scheme, CovarianceMesh) {
     let scheme = match (table["scheme"].as_str(), table["loop_weights"].as_str()) {
         (Some("cc"), _) => Scheme::CatmullClark,
         (_, Some("warren")) => Scheme::Warren,
         _ => Scheme::Loop,
     };
-    let positions = list(&table["verts"]).iter().map(|v| DVec3::from_slice(v)).collect();
-    let faces: Vec<Vec<u32>> = list(&table["faces"])
+    let positions = rows(&table["verts"]).iter().map(|v| DVec3::from_slice(v)).collect();
+    let faces: Vec<Vec<u32>> = rows(&table["faces"])
         .iter()
         .map(|f| f.iter().map(|&v| v as u32).collect())
         .collect();
     let six = |c: &Vec<f64>| Symmetric3::from_array([c[0], c[1], c[2], c[3], c[4], c[5]]);
-    let covariances: Vec<Symmetric3> = list(&table["cov6_xx_xy_xz_yy_yz_zz"]).iter().map(six).collect();
+    let covariances: Vec<Symmetric3> = rows(&table["cov6_xx_xy_xz_yy_yz_zz"]).iter().map(six).collect();
     let control = ControlMesh::from(mesh(positions, &faces));
     let (mesh, changed) = CovarianceMesh::new(control, &covariances, Conditioning::Floor).expect("a mesh");
     assert!(changed.is_empty());
@@ -99,12 +79,12 @@ fn levels_and_limits_agree_with_the_tables() {
             DualFrame::whitened(&gaussians(&mesh)),
         ] {
             let mut refined = dual_mesh(scheme, &mesh, &frame);
-            for (level, rows) in table["levels"].as_array().expect("levels").iter().enumerate() {
+            for (level, own) in table["levels"].as_array().expect("levels").iter().enumerate() {
                 if level > 0 {
                     refined = refined.refine();
                 }
                 let at = refined.by_parameter();
-                for row in list(&rows["pts"]) {
+                for row in rows(&own["pts"]) {
                     let vertex = at[&(row[0] as usize, row[1] as u32, row[2] as u32)];
                     let error = mean(refined.points[vertex], &frame).distance(DVec3::from_slice(&row[3..]));
                     worst[0] = worst[0].max(error);
@@ -114,7 +94,7 @@ fn levels_and_limits_agree_with_the_tables() {
             }
             let refined = dual_mesh(scheme, &mesh, &frame).refine().refine();
             let (at, limits) = (refined.by_parameter(), refined.limits());
-            for row in list(&table["limit"]["rows"]) {
+            for row in rows(&table["limit"]["rows"]) {
                 let jet = jet(&limits[at[&(row[0] as usize, row[1] as u32, row[2] as u32)]], &frame);
                 let error = jet.mean.distance(DVec3::from_slice(&row[3..6]));
                 worst[0] = worst[0].max(error);

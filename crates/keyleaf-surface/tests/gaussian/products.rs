@@ -1,7 +1,8 @@
 //! Gaussian-product surfaces of several kinds, and points of them.
 
 use crate::models::{Random, cube, disk, mesh};
-use crate::oracles::{oracle, read};
+use crate::oracle_tables::oracle;
+use crate::oracles::read;
 use crate::refine::Scheme;
 use glam::DVec3;
 use keyleaf_key::{ONE, RootPoint};

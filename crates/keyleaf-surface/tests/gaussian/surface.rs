@@ -1,7 +1,8 @@
 //! Gaussian-product surfaces: against tables made by independent code, plain subdivision, and themselves.
 
 use crate::models::Random;
-use crate::oracles::{NAMES, list, oracle, read};
+use crate::oracle_tables::{oracle, rows};
+use crate::oracles::{NAMES, read};
 use crate::products::{any_point, meshes, plain, product, scheme_of, settings, shipped};
 use glam::DVec3;
 use keyleaf_key::{ONE, RootPoint};
@@ -23,7 +24,7 @@ fn limits_and_their_normals_are_those_of_the_tables() {
         let surface = product(&mesh, scheme_of(scheme), 12);
         let size = size(&surface);
         let (mut worst, mut drawn_worst, mut angle) = (0.0f64, 0.0f64, 0.0f64);
-        for row in list(&table["limit"]["rows"]) {
+        for row in rows(&table["limit"]["rows"]) {
             let at = surface
                 .face_coord(row[0] as u32, row[1] / 4.0, row[2] / 4.0)
                 .expect("in the face");

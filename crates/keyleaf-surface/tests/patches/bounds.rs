@@ -1,7 +1,9 @@
 //! Bounds against the surfaces themselves.
 
-use crate::models::{Random, bezier_model, clamped, model, rational_neighbours, sheet, sphere, torus};
-use crate::oracles::{oracle, tea_set};
+use crate::models::{bezier_model, clamped, model, rational_neighbours, sheet, sphere, torus};
+use crate::oracle_tables::oracle;
+use crate::oracles::tea_set;
+use crate::random::Random;
 use glam::DVec3;
 use keyleaf_key::{ONE, Place, RootPoint, neighbour};
 use keyleaf_surface::{NurbsSurface, Patches, Surface};

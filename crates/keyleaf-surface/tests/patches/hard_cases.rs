@@ -1,6 +1,7 @@
 //! Places at which evaluators break: tears, weights of zero, poles, parallel tangents, coordinates far from zero.
 
-use crate::models::{HALF, Random, bezier_model, clamped, model, revolved, sheet, sphere, torus};
+use crate::models::{HALF, bezier_model, clamped, model, revolved, sheet, sphere, torus};
+use crate::random::Random;
 use glam::DVec3;
 use keyleaf_key::{ONE, RootPoint};
 use keyleaf_surface::{BasisMethod, NurbsSurface, PatchKind, PatchSettings, Patches, Surface};

@@ -1,7 +1,9 @@
 //! Which boundaries join, what is reported, and that both sides of an edge have the same bits.
 
-use crate::models::{Random, bezier_model, bilinear, clamped, model, rational_neighbours, sheet, sphere, torus};
-use crate::oracles::{oracle, tea_set};
+use crate::models::{bezier_model, bilinear, clamped, model, rational_neighbours, sheet, sphere, torus};
+use crate::oracle_tables::oracle;
+use crate::oracles::tea_set;
+use crate::random::Random;
 use glam::DVec3;
 use keyleaf_key::{HalfEdge, ONE, RootPoint, Site};
 use keyleaf_surface::{NurbsSurface, PatchKind, PatchSettings, Patches, Side, Surface, Unjoined};

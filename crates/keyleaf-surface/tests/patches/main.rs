@@ -5,6 +5,10 @@ mod bounds;
 mod hard_cases;
 mod joins;
 mod models;
+#[path = "../oracle_tables/mod.rs"]
+mod oracle_tables;
 mod oracles;
 mod own_parameters;
+#[path = "../random/mod.rs"]
+mod random;
 mod tables;

@@ -1,5 +1,6 @@
 //! Surfaces that the tests share.
 
+use crate::random::Random;
 use glam::DVec3;
 use keyleaf_surface::{NurbsSurface, PatchKind, PatchSettings, Patches};
 
@@ -9,27 +10,6 @@ pub const HALF: f64 = std::f64::consts::FRAC_1_SQRT_2;
 pub fn clamped(degree: u32, inner: &[f64]) -> Vec<f64> {
     let ends = |x: f64| vec![x; degree as usize + 1];
     [ends(0.0), inner.to_vec(), ends(1.0)].concat()
-}
-
-/// A small random generator (SplitMix64).
-pub struct Random(pub u64);
-
-impl Random {
-    pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    pub fn below(&mut self, end: u32) -> u32 {
-        (self.bits() % u64::from(end)) as u32
-    }
-
-    /// In 0..1.
-    pub fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1u64 << 53) as f64
-    }
 }
 
 /// A bumpy sheet of any degree over [0, 1]² with these knots, and weights from 10^-spread to 10^spread.

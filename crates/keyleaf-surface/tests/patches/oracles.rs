@@ -1,31 +1,10 @@
 //! Positions, derivatives and normals against tables of exact numbers, where the folder that holds them is there.
 
 use crate::models::{bezier_model, model};
+use crate::oracle_tables::{floats, oracle, rows};
 use glam::DVec3;
 use keyleaf_surface::{NurbsSurface, Patches, Surface, SurfaceFrame};
 use serde_json::Value;
-use std::path::Path;
-
-/// The table of this name, None and a printed line if there is none.
-pub fn oracle(name: &str) -> Option<Value> {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../../../shared/oracles")
-        .join(name);
-    let Ok(text) = std::fs::read_to_string(&file) else {
-        println!("skipped: there is no {}", file.display());
-        return None;
-    };
-    Some(serde_json::from_str(&text).expect("JSON"))
-}
-
-fn floats(value: &Value) -> Vec<f64> {
-    let array = value.as_array().expect("an array");
-    array.iter().map(|x| x.as_f64().expect("a number")).collect()
-}
-
-fn rows(table: &Value) -> Vec<Vec<f64>> {
-    table["rows"].as_array().expect("rows").iter().map(floats).collect()
-}
 
 /// The patches of a tea set: `c[i][j]` with j in u.
 pub fn tea_set(table: &Value) -> Vec<NurbsSurface> {
@@ -116,7 +95,7 @@ fn the_tea_set_agrees_with_exact_rationals() {
         let surfaces = tea_set(&table);
         let grid = table["grid"].as_f64().expect("a grid");
         let model = bezier_model(surfaces.clone());
-        for row in rows(&table) {
+        for row in rows(&table["rows"]) {
             let (patch, u, v) = (row[0] as usize, row[1] / grid, row[2] / grid);
             let what = format!("{name}, patch {patch} at ({u}, {v})");
             let frame = surfaces[patch].frame(u, v).expect("in the square");
@@ -150,7 +129,7 @@ fn nurbs_agree_with_forty_digits() {
         };
         let surface = nurbs(&table);
         let model = model(vec![surface.clone()]);
-        for row in rows(&table) {
+        for row in rows(&table["rows"]) {
             let what = format!("{name} at ({}, {})", row[0], row[1]);
             let frame = surface.frame(row[0], row[1]).expect("in the domain");
             compare(&what, &frame, &row[2..], largest(&surface));

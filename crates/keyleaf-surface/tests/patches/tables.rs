@@ -1,6 +1,7 @@
 //! What the GPU reads: positions computed from the tables alone, addresses, and bounds.
 
-use crate::models::{Random, bezier_model, clamped, model, sheet, sphere, torus};
+use crate::models::{bezier_model, clamped, model, sheet, sphere, torus};
+use crate::random::Random;
 use glam::DVec3;
 use keyleaf_key::{ONE, Place, RootPoint};
 use keyleaf_surface::{BasisMethod, PatchKind, PatchSettings, Patches, Surface, SurfaceTables};

@@ -5,6 +5,8 @@ mod butterfly;
 mod emulation;
 mod hard_cases;
 mod models;
+#[path = "../oracle_tables/mod.rs"]
+mod oracle_tables;
 mod oracles;
 mod point_normal;
 #[path = "../gaussian/refine.rs"]

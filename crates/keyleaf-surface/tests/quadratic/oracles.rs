@@ -1,43 +1,23 @@
 //! QAS against tables made in f64 by independent code, where the folder that holds them is there.
 
 use crate::emulation::Emulation;
+use crate::oracle_tables::{floats, oracle, rows};
 use crate::refine::{Refined, Scheme};
 use glam::DVec3;
 use keyleaf_surface::{
     BoundaryRule, ControlMesh, CornerAttributes, LimitSamples, LoopWeights, PolygonMesh, Surface, TrianglePatches,
 };
 use serde_json::Value;
-use std::path::Path;
 
 const NAMES: [&str; 5] = ["cube", "pole8", "saddle_edgeonly", "tetrahedron", "triangle_edgecorner"];
 
-pub fn oracle(name: &str) -> Option<Value> {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../../../shared/oracles")
-        .join(name);
-    let Ok(text) = std::fs::read_to_string(&file) else {
-        println!("skipped: there is no {}", file.display());
-        return None;
-    };
-    Some(serde_json::from_str(&text).expect("JSON"))
-}
-
-fn floats(value: &Value) -> Vec<f64> {
-    let array = value.as_array().expect("an array");
-    array.iter().map(|x| x.as_f64().unwrap_or(f64::NAN)).collect()
-}
-
-fn list(value: &Value) -> Vec<Vec<f64>> {
-    value.as_array().expect("an array").iter().map(floats).collect()
-}
-
 fn control_mesh(table: &Value) -> ControlMesh {
-    let faces = list(&table["faces"]);
+    let faces = rows(&table["faces"]);
     let triangles = faces
         .iter()
         .map(|face| face.iter().map(|&v| v as u32).collect::<Vec<_>>());
     let mesh = PolygonMesh {
-        positions: list(&table["verts"]).iter().map(|v| DVec3::from_slice(v)).collect(),
+        positions: rows(&table["verts"]).iter().map(|v| DVec3::from_slice(v)).collect(),
         faces: triangles.collect(),
         corners: CornerAttributes::default(),
     };
@@ -77,7 +57,7 @@ fn qas_agrees_with_the_tables_in_f64_and_in_f32() {
             .abs()
             .max(surface.bounding_box().1.abs())
             .max_element();
-        for row in list(&table["rows"]) {
+        for row in rows(&table["rows"]) {
             let at = surface
                 .face_coord(row[0] as u32, row[1] / 4.0, row[2] / 4.0)
                 .expect("in the triangle");

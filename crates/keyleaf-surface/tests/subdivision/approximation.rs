@@ -1,7 +1,8 @@
 //! What is drawn against the limit surface.
 
 use crate::models::{LOOP, Random, any_point, disc, prism, settings};
-use crate::oracles::{for_every_table, oracle};
+use crate::oracle_tables::oracle;
+use crate::oracles::for_every_table;
 use keyleaf_key::{ONE, RootPoint};
 use keyleaf_surface::{Subdivision, SubdivisionScheme, Surface};
 

@@ -1,7 +1,8 @@
 //! Bounds against what is drawn.
 
 use crate::models::{LOOP, Random, disc, prism, settings};
-use crate::oracles::{control, oracle};
+use crate::oracle_tables::oracle;
+use crate::oracles::control;
 use glam::DVec3;
 use keyleaf_key::{Place, RootPoint, neighbour};
 use keyleaf_surface::{Subdivision, SubdivisionScheme, Surface};

@@ -5,6 +5,8 @@ mod bad_input;
 mod bounds;
 mod global_refinement;
 mod models;
+#[path = "../oracle_tables/mod.rs"]
+mod oracle_tables;
 mod oracles;
 mod speed;
 mod tables;

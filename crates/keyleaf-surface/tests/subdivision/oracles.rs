@@ -1,6 +1,7 @@
 //! Limits, normals and derivatives against tables of OpenSubdiv, where the folder that holds them is there.
 
 use crate::models::{mesh, point_of_domain, settings};
+use crate::oracle_tables::{floats, list, oracle};
 use glam::DVec3;
 use keyleaf_key::RootPoint;
 use keyleaf_surface::{
@@ -9,7 +10,6 @@ use keyleaf_surface::{
 };
 use serde_json::Value;
 use std::collections::HashMap;
-use std::path::Path;
 
 const CATMULL_CLARK: [&str; 27] = [
     "chaikin0",
@@ -65,29 +65,8 @@ const LOOP: [&str; 18] = [
 /// Tables with edges that three faces share.
 const NO_SURFACES: [&str; 4] = ["cc/fan", "cc/nonman_edges", "loop/nonman_edges", "loop/val2_interior"];
 
-/// The table of this name, None and a printed line if there is none.
-pub fn oracle(name: &str) -> Option<Value> {
-    let file = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../../../shared/oracles")
-        .join(name);
-    let Ok(text) = std::fs::read_to_string(&file) else {
-        println!("skipped: there is no {}", file.display());
-        return None;
-    };
-    Some(serde_json::from_str(&text).expect("JSON"))
-}
-
-fn floats(value: &Value) -> Vec<f64> {
-    let array = value.as_array().expect("an array");
-    array.iter().map(|x| x.as_f64().expect("a number")).collect()
-}
-
 fn indices(value: &Value) -> Vec<u32> {
     floats(value).into_iter().map(|x| x as u32).collect()
-}
-
-fn list(value: &Value) -> &[Value] {
-    value.as_array().expect("an array")
 }
 
 /// The control mesh of a table.

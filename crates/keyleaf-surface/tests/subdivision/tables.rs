@@ -9,7 +9,6 @@ use keyleaf_surface::{Subdivision, SubdivisionScheme, Surface, SurfaceTables};
 struct Params {
     faces: u32,
     normals: u32,
-    half_edges: u32,
     nodes: u32,
     margin: f32,
 }
@@ -19,9 +18,8 @@ fn params(tables: &SurfaceTables) -> Params {
     Params {
         faces: word(0),
         normals: word(1),
-        half_edges: word(2),
-        nodes: word(3),
-        margin: f32::from_bits(word(4)),
+        nodes: word(2),
+        margin: f32::from_bits(word(3)),
     }
 }
 
@@ -29,11 +27,9 @@ fn entry(tables: &SurfaceTables, k: usize) -> Vec3 {
     Vec3::from_slice(&tables.a[4 * k..4 * k + 3])
 }
 
-/// The entry of the first control point of the patch at a point of a quad, and the point in the patch.
-fn quad_patch(tables: &SurfaceTables, at: RootPoint) -> (usize, [f32; 2]) {
-    let params = params(tables);
-    let first = tables.b[at.face as usize];
-    let record = (params.half_edges + 8 * first) as usize;
+/// The entry of the first control point of the patch at a point of a quad with this first half-edge, and the point in the patch.
+fn quad_patch(tables: &SurfaceTables, half_edge: u32, at: RootPoint) -> (usize, [f32; 2]) {
+    let record = 8 * half_edge as usize;
     let (mut node, entry) = (tables.b[record + 5], tables.b[record + 6] as usize);
     let [x, y, z] = [at.x, at.y, at.z()].map(u64::from);
     let (a, b) = (at.root, (at.root + 1) % 4);
@@ -95,7 +91,7 @@ fn positions_and_normals_follow_from_the_tables_in_f32() {
         assert_eq!(params.faces, surface.topology().face_count());
         assert_eq!(tables.a.len() as u32, 4 * (params.normals + params.faces));
         let mut check = |at: RootPoint| {
-            let (first, uv) = quad_patch(&tables, at);
+            let (first, uv) = quad_patch(&tables, surface.topology().first_half_edge(at.face), at);
             let exact = surface.approximate(at);
             let (position, cross) = frame(&tables, first, uv);
             let off = (position.as_dvec3() + origin).distance(exact.position) / f64::from(params.margin);
@@ -133,9 +129,8 @@ fn half_edges_name_owners_that_own_themselves_and_bounds_are_rounded_up() {
         };
         let (tables, topology) = (surface.tables(DVec3::ZERO), surface.topology());
         let params = params(&tables);
-        let record = |half_edge: u32| &tables.b[(params.half_edges + 8 * half_edge) as usize..][..8];
-        assert_eq!(params.nodes, params.half_edges + 8 * topology.half_edge_count());
-        assert_eq!(tables.b[params.faces as usize], topology.half_edge_count());
+        let record = |half_edge: u32| &tables.b[(8 * half_edge) as usize..][..8];
+        assert_eq!(params.nodes, 8 * topology.half_edge_count());
         for root in topology.roots() {
             let own = topology.half_edge_index(root.face, root.root);
             let words = record(own);

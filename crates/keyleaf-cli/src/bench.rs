@@ -2,30 +2,34 @@
 
 use crate::arguments::{Overrides, ReadingArguments, load_scene, parse_seconds, parse_size};
 use crate::output::{self, thousands};
-use crate::session::{self, DeviceReport};
-use crate::timing::{self, Part, TimedFrame};
-use crate::{Outcome, progress, table};
+use crate::timing::{self, TimedFrame};
+use crate::variant::{Sweep, Variant, described, parse_sweep};
+use crate::{Outcome, progress, record, session};
 use anyhow::{Context, ensure};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use glam::UVec2;
+use keyleaf::View;
 use keyleaf::headless::Headless;
-use keyleaf::{Balance, Phase, View, wgpu};
+use keyleaf_report::run::{Clock, RunRecord, SceneRun};
+use keyleaf_report::table;
 use keyleaf_scene::scene::CameraPath;
 use keyleaf_stage::{Canvas, Loaded, Show, Stage, StageLook, Timer, view_of};
-use serde::Serialize;
-use serde_json::json;
 use std::path::{Path, PathBuf};
 
 /// Fly the camera paths of scenes and measure every frame
 ///
 /// Every frame is waited for, so that what it cost can be told: milliseconds of the update and of the draw by the timestamps of the
 /// device, and the CPU time of this process over all threads. On a software device the latter is the cost; its times are not GPU
-/// times. With --neighbours both, two copies of the scene, with and without the test that keeps neighbours from cracking, take turns
-/// frame by frame, so that both see the same machine.
+/// times. --sweep measures a setting at several values, one after another, or, with --interleave, in turn frame by frame, so that all see
+/// the same machine. `keyleaf compare` tells two runs, or two variants of a run, apart.
+///
+/// Settings to sweep: edge, deviation (pixels), distance (a factor), base-grid, max-level, settle, guard, back-faces, neighbours (on or
+/// off: the test that keeps neighbours from cracking). Several sweeps are combined.
 #[derive(Args)]
 #[command(after_help = "Examples:
   keyleaf bench scenes/terrain_real.ron --out run.json
-  keyleaf bench scenes/cube.ron --out gate.json --neighbours both --no-draw --from 1.5 --step 0.002 --pixels 1")]
+  keyleaf bench scenes/torus.ron --out edges.json --csv edges.csv --sweep edge=1,2,4,8,16
+  keyleaf bench scenes/cube.ron --out gate.json --sweep neighbours=on,off --interleave --no-draw --from 1.5 --step 0.002 --pixels 1")]
 pub struct Arguments {
     /// Scene files, models or height maps
     #[arg(value_name = "SCENE", required = true)]
@@ -58,90 +62,20 @@ pub struct Arguments {
     /// Update only
     #[arg(long)]
     no_draw: bool,
-    /// With the test that keeps neighbours from cracking, without it, or one frame of each in turn
-    #[arg(long, value_enum, default_value = "on")]
-    neighbours: Neighbours,
+    /// Measure a setting at several values; may be given several times
+    #[arg(long, value_name = "NAME=V,V…", value_parser = parse_sweep)]
+    sweep: Vec<Sweep>,
+    /// Variants take turns frame by frame
+    #[arg(long)]
+    interleave: bool,
+    /// The figures of all passes as a table as well
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
 }
 
-#[derive(ValueEnum, Clone, Copy, PartialEq, Eq)]
-enum Neighbours {
-    On,
-    Off,
-    Both,
-}
-
-/// Percentiles of a quantity over the frames.
-#[derive(Serialize, Debug, PartialEq)]
-struct Spread {
-    median: f64,
-    p95: f64,
-    p99: f64,
-    max: f64,
-    mean: f64,
-}
-
-impl Spread {
-    fn of(values: impl Iterator<Item = f64>) -> Self {
-        let mut sorted: Vec<f64> = values.collect();
-        sorted.sort_by(f64::total_cmp);
-        // Nearest rank.
-        let at = |part: f64| {
-            let rank = (part * sorted.len() as f64).ceil() as usize;
-            sorted.get(rank.saturating_sub(1)).copied().unwrap_or(0.0)
-        };
-        let mean = sorted.iter().sum::<f64>() / sorted.len().max(1) as f64;
-        Self {
-            median: at(0.5),
-            p95: at(0.95),
-            p99: at(0.99),
-            max: at(1.0),
-            mean,
-        }
-    }
-}
-
-/// One pass over the frames.
-#[derive(Serialize)]
-struct Pass {
-    name: &'static str,
-    median_ms: f64,
-    p95_ms: f64,
-    p99_ms: f64,
-    max_ms: f64,
-    /// CPU time of the process, all threads, a frame.
-    cpu_ms: Spread,
-    /// CPU time of recording the commands, a frame.
-    record_ms: Spread,
-    /// Milliseconds of its phases, where the device has timestamps.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    phases: Vec<PhaseSpread>,
-}
-
-/// One phase of the update over the frames.
-#[derive(Serialize)]
-struct PhaseSpread {
-    name: &'static str,
-    ms: Spread,
-}
-
-impl Pass {
-    fn of(name: &'static str, parts: &[Part]) -> Self {
-        let ms = Spread::of(parts.iter().map(|p| p.ms));
-        Self {
-            name,
-            median_ms: ms.median,
-            p95_ms: ms.p95,
-            p99_ms: ms.p99,
-            max_ms: ms.max,
-            cpu_ms: Spread::of(parts.iter().map(|p| p.cpu.as_secs_f64() * 1e3)),
-            record_ms: Spread::of(parts.iter().map(|p| p.record.as_secs_f64() * 1e3)),
-            phases: Vec::new(),
-        }
-    }
-}
-
-/// What is measured together: a stage that takes part in a flight.
+/// A variant that takes part in a flight.
 struct Run {
+    variant: Variant,
     stage: Stage,
     timer: Option<Timer>,
     frames: Vec<TimedFrame>,
@@ -149,98 +83,67 @@ struct Run {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
-    output::ensure_writable(&arguments.out)?;
+    let files = std::iter::once(&arguments.out).chain(&arguments.csv);
+    files.clone().try_for_each(|file| output::ensure_writable(file))?;
     let gpu = session::device()?;
-    let mut scenes = Vec::new();
+    let size = arguments.size.to_array();
+    let mut report = RunRecord::new(record::tool(), record::device(&gpu), size, arguments.warm_up);
     for scene in &arguments.scenes {
         let loaded = load_scene(scene, &arguments.reading, &arguments.overrides, quiet)?;
-        scenes.push(fly(&gpu, scene, loaded, arguments, quiet).with_context(|| scene.display().to_string())?);
+        let runs = fly(&gpu, scene, &loaded, arguments, quiet).with_context(|| scene.display().to_string())?;
+        report.runs.extend(runs);
     }
-    let device = DeviceReport::new(&gpu);
-    let report = json!({
-        "keyleaf": env!("CARGO_PKG_VERSION"),
-        "device": device.device, "driver": device.driver, "backend": device.backend, "software": device.software,
-        "times": device.times,
-        "profile": if cfg!(debug_assertions) { "debug" } else { "release" },
-        "indirect_validation": wgpu::InstanceFlags::from_env_or_default().contains(wgpu::InstanceFlags::VALIDATION_INDIRECT_CALL),
-        "cores": std::thread::available_parallelism().map_or(1, usize::from),
-        "size": arguments.size.to_array(), "warm_up": arguments.warm_up,
-        "scenes": scenes,
-    });
-    output::write(&arguments.out, serde_json::to_string_pretty(&report)?.as_bytes())?;
-    output::print(&text(&scenes, &device, &arguments.out))?;
+    output::write(&arguments.out, report.to_json()?.as_bytes())?;
+    if let Some(file) = &arguments.csv {
+        output::write(file, csv(&report).as_bytes())?;
+    }
+    output::print(&text(&report, &arguments.out))?;
     Ok(Outcome::Done)
 }
 
-/// Flies one scene; its part of the report.
+/// Flies one scene in all variants; their records.
 fn fly(
     gpu: &Headless,
     scene: &Path,
-    mut loaded: Loaded,
+    loaded: &Loaded,
     arguments: &Arguments,
     quiet: bool,
-) -> anyhow::Result<serde_json::Value> {
-    let path = loaded.path(arguments.path.as_deref())?.clone();
-    let views = views(&path, arguments)?;
-    let balances: &[Balance] = match arguments.neighbours {
-        Neighbours::On => &[Balance::Table],
-        Neighbours::Off => &[Balance::Off],
-        Neighbours::Both => &[Balance::Table, Balance::Off],
-    };
-    let mut runs: Vec<Run> = balances
-        .iter()
-        .map(|balance| start(gpu, &mut loaded, *balance))
-        .collect::<Result<_, _>>()?;
-    let target = keyleaf_stage::target(Show::Colour);
+) -> anyhow::Result<Vec<SceneRun>> {
+    let path = loaded.path(arguments.path.as_deref())?;
+    let views = views(path, arguments)?;
     let canvas = if arguments.no_draw {
         None
     } else {
-        Some(Canvas::new(&gpu.device, arguments.size, target)?)
+        Some(Canvas::new(
+            &gpu.device,
+            arguments.size,
+            keyleaf_stage::target(Show::Colour),
+        )?)
     };
-
-    let bar = progress::bar(
-        u64::from(arguments.warm_up) + views.len() as u64,
-        &scene.display().to_string(),
-        quiet,
-    );
-    for _ in 0..arguments.warm_up {
-        for run in &mut runs {
-            run.stage.set_time(views[0].0)?;
-            timing::frame(gpu, &mut run.stage, canvas.as_ref(), &views[0].1, run.timer.as_ref())?;
+    let variants = Variant::all(&arguments.sweep);
+    let frames = u64::from(arguments.warm_up) + views.len() as u64;
+    let bar = progress::bar(frames * variants.len() as u64, &scene.display().to_string(), quiet);
+    // Those that take turns are on the device together, others one at a time.
+    let together = if arguments.interleave { variants.len() } else { 1 };
+    let mut records = Vec::new();
+    for variants in variants.chunks(together) {
+        let runs: anyhow::Result<Vec<Run>> = variants.iter().map(|variant| start(gpu, loaded, variant)).collect();
+        let mut runs = runs?;
+        let warm_up = std::iter::repeat_n(&views[0], arguments.warm_up as usize);
+        for (number, (time, view)) in warm_up.chain(&views).enumerate() {
+            for run in &mut runs {
+                run.stage.set_time(*time)?;
+                let frame = timing::frame(gpu, &mut run.stage, canvas.as_ref(), view, run.timer.as_ref())?;
+                if number >= arguments.warm_up as usize {
+                    run.frames.push(frame);
+                }
+                bar.inc(1);
+            }
         }
-        bar.inc(1);
-    }
-    for (time, view) in &views {
-        for run in &mut runs {
-            run.stage.set_time(*time)?;
-            run.frames.push(timing::frame(
-                gpu,
-                &mut run.stage,
-                canvas.as_ref(),
-                view,
-                run.timer.as_ref(),
-            )?);
-        }
-        bar.inc(1);
+        records.extend(runs.iter().map(|run| recorded(scene, path, run)));
     }
     bar.finish_and_clear();
-
-    let [first, others @ ..] = &runs[..] else {
-        unreachable!("there is one run at least")
-    };
-    let mut report = report(scene, &path, first);
-    report["neighbours"] = json!(arguments.neighbours != Neighbours::Off);
-    if let [other] = others {
-        let without = self::report(scene, &path, other);
-        report["ratio"] = json!({
-            "what": "with the neighbour test over without, CPU time of the update: of all frames, and a leaf",
-            "cpu": cpu_ms(first) / cpu_ms(other),
-            "cpu_a_leaf": cpu_us_a_leaf(first) / cpu_us_a_leaf(other),
-            "ms": mean_ms(first) / mean_ms(other),
-        });
-        report["without_neighbours"] = without;
-    }
-    Ok(report)
+    Ok(records)
 }
 
 /// The views at a fixed step, with the times on the path.
@@ -265,156 +168,102 @@ fn views(path: &CameraPath, arguments: &Arguments) -> anyhow::Result<Vec<(f64, V
     views.with_context(|| format!("the camera path '{}' has no keys", path.name))
 }
 
-fn start(gpu: &Headless, loaded: &mut Loaded, balance: Balance) -> anyhow::Result<Run> {
+fn start(gpu: &Headless, loaded: &Loaded, variant: &Variant) -> anyhow::Result<Run> {
+    let mut loaded = loaded.clone();
     for object in &mut loaded.objects {
-        object.settings.balance = balance;
+        variant.apply(&mut object.settings)?;
     }
-    let stage = session::stage(gpu, loaded, StageLook::default())?;
-    let timer = Timer::new(gpu, &stage);
+    let stage = session::stage(gpu, &loaded, StageLook::default())?;
     Ok(Run {
+        variant: variant.clone(),
+        timer: Timer::new(gpu, &stage),
         stage,
-        timer,
         frames: Vec::new(),
     })
 }
 
-fn cpu_ms(run: &Run) -> f64 {
-    run.frames.iter().map(|f| f.update.cpu.as_secs_f64() * 1e3).sum()
-}
-
-fn mean_ms(run: &Run) -> f64 {
-    run.frames.iter().map(|f| f.update.ms).sum::<f64>() / run.frames.len().max(1) as f64
-}
-
-/// CPU time of update, cull and table over all frames, by the leaves that there were.
-fn cpu_us_a_leaf(run: &Run) -> f64 {
-    let leaves: f64 = run.frames.iter().map(|f| f64::from(f.statistics.leaves)).sum();
-    cpu_ms(run) * 1e3 / leaves.max(1.0)
-}
-
-fn report(scene: &Path, path: &CameraPath, run: &Run) -> serde_json::Value {
-    let frames = &run.frames;
-    let of = |value: fn(&TimedFrame) -> f64| Spread::of(frames.iter().map(value));
-    let updates: Vec<Part> = frames.iter().map(|f| f.update).collect();
-    let draws: Vec<Part> = frames.iter().filter_map(|f| f.draw).collect();
-    let mut update = Pass::of("update", &updates);
-    let phases: Vec<_> = frames.iter().filter_map(|f| f.phases).collect();
-    if !phases.is_empty() {
-        update.phases = Phase::ALL
-            .map(|phase| PhaseSpread {
-                name: phase.name(),
-                ms: Spread::of(phases.iter().map(|ms| ms[phase as usize])),
-            })
-            .into();
+fn recorded(scene: &Path, path: &CameraPath, run: &Run) -> SceneRun {
+    let mut empty = SceneRun::new(&record::scene_name(scene), &path.name, Clock::Wall, 0);
+    empty.file = scene.display().to_string();
+    empty.variant = run.variant.name();
+    for object in &run.stage.objects {
+        let settings = described(object.quadtree.settings());
+        let named = settings
+            .into_iter()
+            .map(|(name, value)| (format!("{}.{name}", object.name), value));
+        empty.settings.extend(named);
     }
-    let mut passes = vec![update];
-    if !draws.is_empty() {
-        passes.push(Pass::of("draw", &draws));
-    }
-    let cpu = |f: &TimedFrame| (f.update.cpu + f.draw.unwrap_or_default().cpu).as_secs_f64() * 1e3;
-    let memory: Vec<_> = run
-        .stage
-        .memory()
-        .into_iter()
-        .map(|(surface, buffer, bytes)| json!({ "surface": surface, "buffer": buffer, "bytes": bytes }))
-        .collect();
-    let bytes: u64 = run.stage.memory().iter().map(|(_, _, bytes)| bytes).sum();
-    json!({
-        "name": scene.file_stem().unwrap_or_default().to_string_lossy(), "file": scene, "path": path.name,
-        "frames": frames.len(), "clock": timing::clock(run.timer.as_ref()), "passes": passes,
-        "leaves": of(|f| f.statistics.leaves.into()),
-        "visible": of(|f| f.statistics.visible.into()),
-        "triangles": of(|f| f.statistics.triangles as f64),
-        "splits": of(|f| f.statistics.splits.into()),
-        "merges": of(|f| f.statistics.merges.into()),
-        "starved": of(|f| f.statistics.starved.into()),
-        "starved_frames": frames.iter().filter(|f| f.statistics.starved > 0).count(),
-        "threshold_factor": of(|f| f.statistics.threshold_factor.into()),
-        "table_rebuilds": frames.last().map_or(0, |f| f.statistics.rebuilds),
-        "lost": frames.iter().map(|f| f.statistics.lost).max(),
-        "wall_ms": of(|f| f.wall.as_secs_f64() * 1e3),
-        "cpu_ms": of(cpu),
-        "cpu_us_a_leaf": cpu_us_a_leaf(run),
-        "bytes": bytes, "memory": memory,
-    })
+    record::scene_run(empty, &run.stage, &run.frames, run.timer.is_some())
 }
 
-fn text(scenes: &[serde_json::Value], device: &DeviceReport, out: &Path) -> String {
-    let number = |value: Option<&serde_json::Value>| value.and_then(serde_json::Value::as_f64).unwrap_or(0.0);
+/// A row a pass and phase: name, leaves, percentiles, CPU.
+fn rows(report: &RunRecord) -> Vec<Vec<String>> {
     let mut rows = Vec::new();
-    let mut ratios = String::new();
-    for scene in scenes {
-        let name = scene["name"].as_str().unwrap_or_default();
-        for (run, label) in [
-            (Some(scene), ""),
-            (scene.get("without_neighbours"), " without neighbours"),
-        ] {
-            let Some(run) = run else { continue };
-            for pass in run["passes"].as_array().into_iter().flatten() {
-                let ms = |key: &str| format!("{:.2}", number(pass.get(key)));
-                rows.push(vec![
-                    format!("{name}{label}"),
-                    pass["name"].as_str().unwrap_or_default().to_owned(),
-                    thousands(number(run.pointer("/leaves/median")) as u64),
-                    ms("median_ms"),
-                    ms("p95_ms"),
-                    ms("p99_ms"),
-                    ms("max_ms"),
-                    format!("{:.2}", number(pass.pointer("/cpu_ms/median"))),
-                ]);
-                for phase in pass["phases"].as_array().into_iter().flatten() {
-                    let ms = |key: &str| format!("{:.2}", number(phase["ms"].get(key)));
-                    let name = format!("  {}", phase["name"].as_str().unwrap_or_default());
-                    let figures = ["median", "p95", "p99", "max"].map(ms);
-                    rows.push(
-                        [
-                            vec![String::new(), name, String::new()],
-                            figures.into(),
-                            vec![String::new()],
-                        ]
-                        .concat(),
-                    );
-                }
+    for run in &report.runs {
+        for pass in &run.passes {
+            let figures =
+                |ms: &keyleaf_report::run::Series| [ms.p50, ms.p95, ms.p99, ms.max].map(|ms| format!("{ms:.2}"));
+            let cpu = pass
+                .cpu_ms
+                .as_ref()
+                .map_or(String::new(), |cpu| format!("{:.2}", cpu.p50));
+            let first = [run.name(), pass.name.clone(), thousands(run.leaves.p50 as u64)];
+            rows.push([&first[..], &figures(&pass.ms), &[cpu]].concat());
+            for phase in &pass.phases {
+                let first = [String::new(), format!("  {}", phase.name), String::new()];
+                rows.push([&first[..], &figures(&phase.ms), &[String::new()]].concat());
             }
-            ratios += &format!(
-                "\n{name}{label}: {:.3} µs of CPU time a leaf for the update",
-                number(run.get("cpu_us_a_leaf"))
-            );
-        }
-        if let Some(ratio) = scene.get("ratio") {
-            let [all, leaf] = ["cpu", "cpu_a_leaf"].map(|key| number(ratio.get(key)));
-            ratios +=
-                &format!("\n{name}: the neighbour test takes {all:.2} times the CPU time, {leaf:.2} times a leaf");
         }
     }
+    rows
+}
+
+fn text(report: &RunRecord, out: &Path) -> String {
     let head = ["scene", "pass", "leaves", "ms p50", "p95", "p99", "max", "CPU ms p50"];
+    let a_leaf: String = report
+        .runs
+        .iter()
+        .map(|run| {
+            let figure = run.figures.get("update_cpu_us_a_leaf").copied().unwrap_or(0.0);
+            format!("\n{}: {figure:.3} µs of CPU time a leaf for the update", run.name())
+        })
+        .collect();
     format!(
-        "{} ({})\n{}{ratios}\n{}",
-        device.device,
-        device.times,
-        table::format(&head, &rows),
+        "{} ({})\n{}{a_leaf}\n{}",
+        report.device.name,
+        report.device.times(),
+        table::format(&head, &rows(report)),
         out.display()
     )
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn percentiles_are_values_that_were_measured() {
-        let spread = Spread::of((1..=100).rev().map(f64::from));
-        assert_eq!(
-            spread,
-            Spread {
-                median: 50.0,
-                p95: 95.0,
-                p99: 99.0,
-                max: 100.0,
-                mean: 50.5
+/// One line a scene, variant, pass and phase.
+fn csv(report: &RunRecord) -> String {
+    let quoted = |text: &str| format!("\"{}\"", text.replace('"', "\"\""));
+    let mut lines =
+        "scene,path,variant,pass,phase,p50_ms,p95_ms,p99_ms,max_ms,mean_ms,leaves,triangles,starved,bytes\n".to_owned();
+    for run in &report.runs {
+        for pass in &run.passes {
+            let phases = pass.phases.iter().map(|phase| (phase.name.as_str(), &phase.ms));
+            for (phase, ms) in std::iter::once(("", &pass.ms)).chain(phases) {
+                lines += &format!(
+                    "{},{},{},{},{phase},{},{},{},{},{},{},{},{},{}\n",
+                    quoted(&run.scene),
+                    quoted(&run.path),
+                    quoted(&run.variant),
+                    pass.name,
+                    ms.p50,
+                    ms.p95,
+                    ms.p99,
+                    ms.max,
+                    ms.mean,
+                    run.leaves.p50,
+                    run.triangles.p50,
+                    run.starved.max,
+                    run.bytes(),
+                );
             }
-        );
-        assert_eq!(Spread::of([7.0].into_iter()).p99, 7.0);
-        assert_eq!(Spread::of(std::iter::empty()).max, 0.0);
+        }
     }
+    lines
 }

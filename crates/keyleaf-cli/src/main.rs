@@ -9,6 +9,7 @@ mod accuracy;
 mod arguments;
 mod bench;
 mod check;
+mod compare;
 mod csv;
 mod difference;
 mod eval;
@@ -17,10 +18,12 @@ mod info;
 mod output;
 mod plan;
 mod progress;
+mod record;
 mod render;
 mod session;
 mod table;
 mod timing;
+mod variant;
 mod view;
 
 use clap::{Parser, Subcommand};
@@ -51,6 +54,7 @@ enum Command {
     Eval(eval::Arguments),
     Check(check::Arguments),
     Bench(bench::Arguments),
+    Compare(compare::Arguments),
     Accuracy(accuracy::Arguments),
     Plan(plan::Arguments),
     Info(info::Arguments),
@@ -74,6 +78,7 @@ fn main() -> ExitCode {
         Command::Eval(arguments) => eval::run(&arguments, quiet),
         Command::Check(arguments) => check::run(&arguments, quiet),
         Command::Bench(arguments) => bench::run(&arguments, quiet),
+        Command::Compare(arguments) => compare::run(&arguments),
         Command::Accuracy(arguments) => accuracy::run(&arguments, quiet),
         Command::Plan(arguments) => plan::run(&arguments, quiet),
         Command::Info(arguments) => info::run(&arguments),

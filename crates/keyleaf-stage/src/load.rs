@@ -47,6 +47,7 @@ pub enum LoadError {
 }
 
 /// A scene with the surfaces that it names.
+#[derive(Clone)]
 pub struct Loaded {
     /// What was opened.
     pub file: PathBuf,

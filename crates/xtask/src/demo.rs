@@ -38,11 +38,12 @@ const TRIANGLES: &str = "/triangles";
 const PASSES: &str = "/passes";
 const PASS_NAME: &str = "/name";
 const PASS_MS: &str = "/ms";
-const FLIGHT_RUN: &str = "/scenes/0";
+const FLIGHT_DEVICE: &str = "/device/name";
+const FLIGHT_RUN: &str = "/runs/0";
 const FLIGHT_FRAMES: &str = "/frames";
-const FLIGHT_LEAVES: &str = "/leaves/median";
-const FLIGHT_TRIANGLES: &str = "/triangles/median";
-const FLIGHT_PASS_MS: &str = "/median_ms";
+const FLIGHT_LEAVES: &str = "/leaves/p50";
+const FLIGHT_TRIANGLES: &str = "/triangles/p50";
+const FLIGHT_PASS_MS: &str = "/ms/p50";
 
 /// Builds the program and shows what it does; pictures and figures go to `out/demo/`.
 ///
@@ -138,7 +139,8 @@ pub fn release_program() -> anyhow::Result<PathBuf> {
 }
 
 fn picture_row(scene: &str, report: &Value) -> Vec<String> {
-    row(scene.into(), report, report, [LEAVES, TRIANGLES, PASS_MS])
+    let device = report.pointer(DEVICE);
+    row(scene.into(), device, report, [LEAVES, TRIANGLES, PASS_MS])
 }
 
 /// Medians over the frames of the flight.
@@ -147,11 +149,12 @@ fn flight_row(report: &Value) -> Vec<String> {
     let flight = report.pointer(FLIGHT_RUN).unwrap_or(&nothing);
     let frames = count(flight, FLIGHT_FRAMES);
     let title = format!("{FLIGHT}, median of {frames} frames");
-    row(title, report, flight, [FLIGHT_LEAVES, FLIGHT_TRIANGLES, FLIGHT_PASS_MS])
+    let device = report.pointer(FLIGHT_DEVICE);
+    row(title, device, flight, [FLIGHT_LEAVES, FLIGHT_TRIANGLES, FLIGHT_PASS_MS])
 }
 
-fn row(title: String, report: &Value, figures: &Value, [leaves, triangles, ms]: [&str; 3]) -> Vec<String> {
-    let device = report.pointer(DEVICE).and_then(Value::as_str).unwrap_or("-");
+fn row(title: String, device: Option<&Value>, figures: &Value, [leaves, triangles, ms]: [&str; 3]) -> Vec<String> {
+    let device = device.and_then(Value::as_str).unwrap_or("-");
     vec![
         title,
         count(figures, leaves),
@@ -213,10 +216,10 @@ mod tests {
     #[test]
     fn flight_row_shows_medians() {
         let report = serde_json::json!({
-            "device": "llvmpipe",
-            "scenes": [{
-                "frames": 120, "leaves": { "median": 10.0 }, "triangles": { "median": 160 },
-                "passes": [{ "name": "update", "median_ms": 0.5 }]
+            "device": { "name": "llvmpipe" },
+            "runs": [{
+                "frames": 120, "leaves": { "p50": 10.0 }, "triangles": { "p50": 160 },
+                "passes": [{ "name": "update", "ms": { "p50": 0.5 } }]
             }]
         });
         let title = format!("{FLIGHT}, median of 120 frames");

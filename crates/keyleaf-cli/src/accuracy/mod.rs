@@ -7,6 +7,7 @@
 //! | `culling` | ways of culling × size of the triangles (Concheiro, tables 6.3 to 6.14) |
 //! | `methods` | tessellations of the thesis and the quadtree (tables 3.1, 4.1, 6.15) |
 //! | `sampler` | a model of patches as the tessellators of `keyleaf-baseline` take it |
+//! | `report`, `series` | error against time for every setting, as a page |
 //! | `bases` | methods for basis functions × degree |
 //! | `isolation` | subdivision surfaces: isolation × preprocessing, memory, error, time (Komar, tables 4.1, 4.6, 4.7) |
 //! | `quadratic` | QAS, PN triangles and Loop surfaces of one control mesh |
@@ -18,14 +19,17 @@ mod isolation;
 mod methods;
 mod psnr;
 mod quadratic;
+mod report;
 mod sampler;
 mod samples;
+mod series;
 mod studio;
 
 use crate::arguments::{Overrides, ReadingArguments, load_scene, parse_size};
 use crate::output;
 use crate::session::{self, DeviceReport};
 use crate::{Outcome, table};
+use anyhow::Context;
 use clap::{Args, ValueEnum};
 use glam::UVec2;
 use keyleaf_stage::{Loaded, LoadedObject, view_of};
@@ -36,7 +40,10 @@ use studio::Setup;
 
 /// Measure what accuracy costs: error, triangles and milliseconds
 ///
-/// The suite concheiro has the tables of Concheiro's thesis with keyleaf's figures, each for the first Bézier or NURBS surface of every
+/// With --out a report of every setting of the scenes: error against time, triangles, memory, time by pass, and which settings no other
+/// beats, as one HTML page with a .csv of the same name beside it.
+///
+/// With --suite the tables of a work. The suite concheiro has the tables of Concheiro's thesis with keyleaf's figures, each for the first Bézier or NURBS surface of every
 /// scene. culling: triangles, PSNR and milliseconds for ways of culling × edges of 1 to 16 pixels (tables 6.3 to 6.14). methods:
 /// uniform, semi-adaptive and DABT tessellations at three qualities, and the quadtree at the same PSNR (tables 3.1, 4.1, 6.15). bases:
 /// methods for basis functions × degree, milliseconds and f32 error; it needs no scene.
@@ -48,6 +55,7 @@ use studio::Setup;
 /// updates and draws.
 #[derive(Args)]
 #[command(after_help = "Examples:
+  keyleaf accuracy scenes/torus.ron --out report.html --quick
   keyleaf accuracy scenes/goblet.ron --suite concheiro
   keyleaf accuracy scenes/torus.ron scenes/panels.ron --suite concheiro --table culling --size 1280x720
   keyleaf accuracy --suite concheiro --table bases --json
@@ -59,9 +67,20 @@ pub struct Arguments {
     scenes: Vec<PathBuf>,
     #[command(flatten)]
     reading: ReadingArguments,
+    /// The report: .html, with a .csv beside it
+    #[arg(
+        long,
+        value_name = "FILE",
+        required_unless_present = "suite",
+        conflicts_with = "suite"
+    )]
+    out: Option<PathBuf>,
+    /// Few settings and samples: minutes instead of an hour on a software device
+    #[arg(long, requires = "out")]
+    quick: bool,
     /// The tables of a work
     #[arg(long, value_enum, value_name = "NAME")]
-    suite: Suite,
+    suite: Option<Suite>,
     /// One table of the suite concheiro [default: all]
     #[arg(long, value_enum, value_name = "TABLE")]
     table: Option<Table>,
@@ -123,7 +142,9 @@ impl Shown {
 
 /// Runs the command.
 pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
-    let suite = arguments.suite;
+    let Some(suite) = arguments.suite else {
+        return write_report(arguments, quiet);
+    };
     let wants = |table: Table| suite == Suite::Concheiro && arguments.table.is_none_or(|only| only == table);
     anyhow::ensure!(
         suite == Suite::Concheiro || arguments.table.is_none(),
@@ -184,6 +205,54 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
         }))?;
     } else {
         output::print(&format!("\n{}, times {}", device.device, device.times))?;
+    }
+    Ok(Outcome::Done)
+}
+
+/// The report of all settings.
+fn write_report(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
+    let Some(out) = &arguments.out else {
+        anyhow::bail!("expected --out or --suite");
+    };
+    let csv = out.with_extension("csv");
+    output::ensure_writable(out)?;
+    output::ensure_writable(&csv)?;
+    anyhow::ensure!(
+        output::extension(out) == "html",
+        "{}: expected the name of an .html file",
+        out.display()
+    );
+    let load = |file: &PathBuf| load_scene(file, &arguments.reading, &Overrides::default(), quiet);
+    let scenes: Vec<Loaded> = arguments.scenes.iter().map(load).collect::<anyhow::Result<_>>()?;
+    let gpu = session::device()?;
+    let setup = Setup {
+        gpu: &gpu,
+        size: arguments.size,
+        frames: arguments.frames,
+        quiet,
+    };
+    let effort = report::Effort { quick: arguments.quick };
+    let mut page = report::empty(&setup, effort);
+    for loaded in &scenes {
+        let camera = loaded.camera(arguments.camera.as_deref())?.name.clone();
+        let view = loaded.view(Some(&camera), arguments.size)?;
+        let scene = report::scene(&setup, loaded, &camera, &view, effort);
+        page.scenes
+            .push(scene.with_context(|| loaded.file.display().to_string())?);
+    }
+    report::add_scaling(&mut page);
+    output::write(out, keyleaf_report::html::page(&page).as_bytes())?;
+    output::write(&csv, page.csv().as_bytes())?;
+    if arguments.json {
+        output::print_json(&page)?;
+    } else {
+        let points: usize = page.scenes.iter().map(|scene| scene.points.len()).sum();
+        output::print(&format!(
+            "{}: {points} settings of {} scenes; {}: their figures",
+            out.display(),
+            page.scenes.len(),
+            csv.display()
+        ))?;
     }
     Ok(Outcome::Done)
 }

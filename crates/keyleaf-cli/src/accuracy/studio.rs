@@ -1,7 +1,7 @@
 //! Pictures of a scene at changing settings.
 
 use crate::session;
-use crate::timing::{self, Timer};
+use crate::timing::{self, TimedFrame, Timer};
 use glam::UVec2;
 use keyleaf::headless::Headless;
 use keyleaf::{Settings, View};
@@ -42,6 +42,13 @@ pub struct Shot {
     pub ms: f64,
 }
 
+/// Frames of a settled view.
+pub struct Film {
+    pub frames: Vec<TimedFrame>,
+    /// Four bytes a pixel.
+    pub pixels: Vec<u8>,
+}
+
 impl<'a> Studio<'a> {
     /// Compiles what the scene needs.
     pub fn new(setup: &'a Setup<'a>, loaded: &Loaded, view: &View) -> anyhow::Result<Self> {
@@ -75,6 +82,34 @@ impl<'a> Studio<'a> {
             object.quadtree.set_settings(settings)?;
         }
         Ok(())
+    }
+
+    /// What is drawn.
+    pub fn stage(&self) -> &Stage {
+        &self.stage
+    }
+
+    /// Whether milliseconds are the device's.
+    pub fn has_timestamps(&self) -> bool {
+        self.timer.is_some()
+    }
+
+    /// Frames once nothing changes any more, with all that is known of them.
+    pub fn film(&mut self) -> anyhow::Result<Film> {
+        let gpu = self.setup.gpu;
+        session::settle(gpu, &mut self.stage, &self.view, None, self.setup.quiet)?;
+        let timer = self.timer.as_ref();
+        let mut frame = || timing::frame(gpu, &mut self.stage, Some(&self.canvas), &self.view, timer);
+        frame()?; // shaders are compiled at their first use
+        let begin = Instant::now();
+        let mut frames = Vec::new();
+        while frames.len() < self.setup.frames as usize && (frames.is_empty() || begin.elapsed() < LONG_ENOUGH) {
+            frames.push(frame()?);
+        }
+        Ok(Film {
+            frames,
+            pixels: self.canvas.read(gpu)?,
+        })
     }
 
     /// The picture once nothing changes any more, drawn `frames` times.

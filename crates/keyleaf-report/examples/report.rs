@@ -110,6 +110,7 @@ fn report() -> Report {
         efficiency: 0.6,
     };
     let measured: Vec<(f64, f64)> = scenes[0].growth.iter().map(|g| (g.leaves, g.ms)).collect();
+    let classes = device_classes();
     Report {
         title: "What accuracy costs in time".to_owned(),
         tool: Tool {
@@ -127,7 +128,7 @@ fn report() -> Report {
             ..Device::default()
         },
         notes: vec!["Every point is a setting. Errors are measured against the surface in 64-bit numbers.".to_owned()],
-        scaling: Some(scaling(&model, &device_classes(), &measured)),
+        scaling: Some(scaling(&model, &classes, &measured, classes.get(3))),
         scenes,
     }
 }

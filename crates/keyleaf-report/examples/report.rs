@@ -110,6 +110,7 @@ fn report() -> Report {
         efficiency: 0.6,
     };
     let measured: Vec<(f64, f64)> = scenes[0].growth.iter().map(|g| (g.leaves, g.ms)).collect();
+    let classes = device_classes();
     Report {
         title: "What accuracy costs in time".to_owned(),
         tool: Tool {
@@ -127,7 +128,7 @@ fn report() -> Report {
             ..Device::default()
         },
         notes: vec!["Every point is a setting. Errors are measured against the surface in 64-bit numbers.".to_owned()],
-        scaling: Some(scaling(&model, &device_classes(), &measured)),
+        scaling: Some(scaling(&model, &classes, &measured, classes.get(3))),
         scenes,
     }
 }
@@ -136,14 +137,12 @@ fn main() -> std::io::Result<()> {
     let folder = PathBuf::from(std::env::args().nth(1).unwrap_or_else(|| ".".to_owned()));
     std::fs::create_dir_all(&folder)?;
     let report = report();
-    let page = html::page(&report);
-    for (i, part) in page.split("<svg ").skip(1).enumerate() {
-        let figure = part.split_inclusive("</svg>").next().unwrap_or_default();
-        std::fs::write(
-            folder.join(format!("figure_{i}.svg")),
-            svg::standalone(&format!("<svg {figure}")),
-        )?;
+    for scene in &report.scenes {
+        for (i, figure) in html::figures(scene).iter().enumerate() {
+            let name = format!("{}_{i}.svg", scene.name);
+            std::fs::write(folder.join(name), svg::standalone(&figure.svg))?;
+        }
     }
-    std::fs::write(folder.join("report.html"), page)?;
+    std::fs::write(folder.join("report.html"), html::page(&report))?;
     std::fs::write(folder.join("report.csv"), report.csv())
 }

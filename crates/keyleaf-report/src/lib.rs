@@ -41,7 +41,8 @@
 //!
 //! *A report.* For each setting: a [`Point`](report::Point) of its run, with [`Errors`](report::Errors) of [`error::measure`] and
 //! [`picture::picture_error`]; the points of a scene into a [`SceneReport`](report::SceneReport), the scenes into a
-//! [`Report`](report::Report), and that into [`html::page`] and [`Report::csv`](report::Report::csv). `examples/report.rs` does so with made-up numbers.
+//! [`Report`](report::Report), and that into [`html::page`] and [`Report::csv`](report::Report::csv). `examples/report.rs` does so with
+//! made-up numbers.
 
 pub mod compare;
 pub mod error;

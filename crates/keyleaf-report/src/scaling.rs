@@ -9,6 +9,7 @@
 //! that fit them faster than the line.
 
 use crate::slope::{Slope, power_law};
+use crate::table::bytes;
 use serde::{Deserialize, Serialize};
 
 /// A class of devices.
@@ -50,17 +51,17 @@ pub struct Prediction {
     pub bytes: f64,
 }
 
-/// A measured size beside what the model says of it.
+/// A measured size beside what is predicted of it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Check {
     /// Leaves.
     pub leaves: f64,
     /// Milliseconds that were measured.
     pub measured_ms: f64,
-    /// Milliseconds of the line through the measured sizes.
-    pub predicted_ms: f64,
-    /// Predicted over measured.
-    pub ratio: f64,
+    /// Milliseconds of the line through the measured sizes but the largest, over the measured: whether time is a line.
+    pub line_ratio: Option<f64>,
+    /// Milliseconds of the model over the measured: whether the assumptions hold. Only where the device's bandwidth is known.
+    pub model_ratio: Option<f64>,
 }
 
 /// The whole table.
@@ -70,7 +71,7 @@ pub struct Scaling {
     pub assumptions: Vec<String>,
     /// A row a device: predictions for [`SIZES`].
     pub devices: Vec<(DeviceClass, Vec<Prediction>)>,
-    /// Measured sizes against the line fitted to them.
+    /// Measured sizes against predictions.
     pub checks: Vec<Check>,
     /// How measured time grows with leaves; an exponent of 1 is what the model assumes.
     pub growth: Option<Slope>,
@@ -132,7 +133,7 @@ impl CostModel {
                 "a leaf moves {:.0} bytes a frame and keeps {:.0}",
                 self.moved_per_leaf, self.kept_per_leaf
             ),
-            format!("{:.0} bytes are there without leaves", self.kept_fixed),
+            format!("{} are there without leaves", bytes(self.kept_fixed)),
             format!("{:.0} passes start in {} µs each", self.passes, self.start_us),
             format!("{:.0} % of the peak bandwidth are reached", 100.0 * self.efficiency),
             "time is proportional to bytes: no caches, no cost of pixels, no dear surfaces".to_owned(),
@@ -140,31 +141,36 @@ impl CostModel {
     }
 }
 
-/// The table for some devices, checked against measured (leaves, milliseconds) of the device at hand: a line is fitted to them, with
-/// relative errors, and its ratio to each is told.
-pub fn scaling(model: &CostModel, devices: &[DeviceClass], measured: &[(f64, f64)]) -> Scaling {
+/// The table for some devices, checked against measured (leaves, milliseconds) of the device at hand; `at_hand` is its class, if its
+/// bandwidth is known.
+///
+/// A line is fitted to all measured sizes but the largest, if there are three at least, so that the largest tests an extrapolation.
+pub fn scaling(
+    model: &CostModel,
+    devices: &[DeviceClass],
+    measured: &[(f64, f64)],
+    at_hand: Option<&DeviceClass>,
+) -> Scaling {
     let row = |device: &DeviceClass| {
         let predictions = SIZES.map(|leaves| model.predict(leaves, device));
         (device.clone(), predictions.into())
     };
-    let line = fit_line(measured);
-    let check = |&(leaves, measured_ms): &(f64, f64)| {
-        let (start, per_leaf) = line?;
-        let predicted_ms = start + per_leaf * leaves;
-        let ratio = predicted_ms / measured_ms;
-        Some(Check {
-            leaves,
-            measured_ms,
-            predicted_ms,
-            ratio,
-        })
+    let is_measured = |point: &(f64, f64)| point.0 > 0.0 && point.1 > 0.0;
+    let mut sizes: Vec<(f64, f64)> = measured.iter().copied().filter(is_measured).collect();
+    sizes.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let fitted = if sizes.len() > 2 { sizes.len() - 1 } else { sizes.len() };
+    let line = fit_line(&sizes[..fitted]);
+    let check = |&(leaves, measured_ms): &(f64, f64)| Check {
+        leaves,
+        measured_ms,
+        line_ratio: line.map(|(start, per_leaf)| (start + per_leaf * leaves) / measured_ms),
+        model_ratio: at_hand.map(|device| model.predict(leaves, device).ms / measured_ms),
     };
-    let is_measured = |point: &&(f64, f64)| point.0 > 0.0 && point.1 > 0.0;
     Scaling {
         assumptions: model.assumptions(),
         devices: devices.iter().map(row).collect(),
-        checks: measured.iter().filter(is_measured).filter_map(check).collect(),
-        growth: power_law(measured),
+        checks: sizes.iter().map(check).collect(),
+        growth: power_law(&sizes),
     }
 }
 
@@ -220,17 +226,27 @@ mod tests {
     #[test]
     fn what_follows_the_model_is_predicted_and_what_does_not_shows() {
         let sizes = [1e3, 1e4, 1e5, 1e6];
-        let exact = sizes.map(|leaves| (leaves, 0.3 + 2e-4 * leaves));
-        let table = scaling(&MODEL, &device_classes(), &exact);
+        let device = &device_classes()[0];
+        let exact = sizes.map(|leaves| (leaves, model_time(leaves, device)));
+        let table = scaling(&MODEL, &device_classes(), &exact, Some(device));
+        let is_one = |ratio: Option<f64>| (ratio.unwrap() - 1.0).abs() < 1e-9;
         assert!(
-            table.checks.iter().all(|check| (check.ratio - 1.0).abs() < 1e-9),
+            table
+                .checks
+                .iter()
+                .all(|check| is_one(check.line_ratio) && is_one(check.model_ratio)),
             "{table:?}"
         );
-        let quadratic = sizes.map(|leaves| (leaves, 1e-9 * leaves * leaves));
-        let table = scaling(&MODEL, &device_classes(), &quadratic);
-        assert!((table.growth.unwrap().exponent - 2.0).abs() < 1e-9);
-        assert!(table.checks.iter().any(|check| (check.ratio - 1.0).abs() > 0.5));
         assert_eq!(table.devices.len(), device_classes().len());
-        assert!(scaling(&MODEL, &[], &exact[..1]).checks.is_empty());
+        let quadratic = sizes.map(|leaves| (leaves, 1e-9 * leaves * leaves));
+        let table = scaling(&MODEL, &device_classes(), &quadratic, None);
+        assert!((table.growth.unwrap().exponent - 2.0).abs() < 1e-9);
+        // The line through the smaller sizes does not reach the largest.
+        assert!(table.checks[3].line_ratio.unwrap() < 0.2 && table.checks[3].model_ratio.is_none());
+        assert_eq!(scaling(&MODEL, &[], &exact[..1], None).checks[0].line_ratio, None);
+    }
+
+    fn model_time(leaves: f64, device: &DeviceClass) -> f64 {
+        MODEL.predict(leaves, device).ms
     }
 }

@@ -18,11 +18,14 @@
 //!
 //! Every triangle carries the parameters of its corners, so that the search on the surface starts beside its end: Gauss-Newton steps
 //! on |S(u, v) − p|², taken only if they come nearer, across the edges of faces where they lead there (`foot`). Backward distances ask a
-//! tree of all triangles (`tree`), exactly. Samples are a lattice whose weights integrate the square of a linear function exactly over each cell
-//! (`lattice`). Cost: some 100 µs a triangle on one core for patches with the 28 samples of the default; all cores take part.
+//! tree of all triangles (`tree`), exactly. Samples are a lattice whose weights integrate the square of a linear function exactly over
+//! each cell (`lattice`). Cost: about four evaluations of the surface a sample, 28 samples a triangle by default; all cores take part.
 //!
-//! Everything is in f64. What a distance of 0 means is limited by [`RootPoint`](keyleaf_key::RootPoint)s, which round parameters to 2⁻³¹: an error of that
-//! part of a face along it, and the square of it across.
+//! Everything is in f64. What a distance of 0 means is limited by [`RootPoint`](keyleaf_key::RootPoint)s, which round parameters to
+//! 2⁻³¹: an error of that part of a face along it, and the square of it across.
+//!
+//! A triangle belongs to one face. Tessellations whose triangles reach over several, such as uniform grids of a surface with many knot
+//! spans, are refused: they are to be cut at the spans, or measured face by face.
 
 mod chord;
 mod domain;

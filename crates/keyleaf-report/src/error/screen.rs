@@ -24,7 +24,8 @@ pub struct ScreenError {
     pub side_on: Measure,
     /// Samples in the picture.
     pub samples: usize,
-    /// Between contours; `None` where triangles or surface have none in the picture.
+    /// Between contours; `None` where triangles or surface have none in the picture. It takes the triangles on both sides of a contour:
+    /// those of back faces must be given as well.
     pub silhouette: Option<Silhouette>,
 }
 

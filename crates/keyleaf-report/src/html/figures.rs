@@ -6,9 +6,13 @@ use crate::svg::{Axis, Bar, Plot, PlotPoint, PlotSeries, bars, plot};
 use crate::table::{bytes, figure, thousands};
 
 /// A figure with its heading and what there is to say of it.
-pub(super) struct Figure {
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Figure {
+    /// The heading.
     pub title: String,
+    /// The figure; [`standalone`](crate::svg::standalone) makes a file of it.
     pub svg: String,
+    /// How to read it.
     pub remark: String,
 }
 
@@ -18,8 +22,8 @@ const MOST_BARS: usize = 28;
 /// The longest over the shortest frame that bars show in milliseconds.
 const MOST_RATIO: f64 = 8.0;
 
-/// All for which there are numbers.
-pub(super) fn all(scene: &SceneReport) -> Vec<Figure> {
+/// The figures of a scene for which there are numbers, in the order of the page.
+pub fn figures(scene: &SceneReport) -> Vec<Figure> {
     let mut figures: Vec<Figure> = Quantity::ALL
         .into_iter()
         .filter_map(|q| error_against_time(scene, q))

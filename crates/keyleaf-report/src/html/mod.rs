@@ -11,6 +11,8 @@ mod tables;
 #[cfg(test)]
 mod tests;
 
+pub use figures::{Figure, figures};
+
 use crate::report::{Report, SceneReport};
 use crate::svg::{self, escape};
 
@@ -62,7 +64,7 @@ fn contents(report: &Report) -> String {
 
 fn section(report: &Report, scene: &SceneReport, index: usize) -> String {
     let caption = caption(report, scene);
-    let figures: String = figures::all(scene)
+    let figures: String = figures(scene)
         .into_iter()
         .map(|figure| {
             format!(

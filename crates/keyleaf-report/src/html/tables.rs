@@ -10,19 +10,26 @@ use crate::table::{bytes, figure, is_number, thousands};
 
 /// A table; `front` tells the rows that stand out. Columns stand right whose cells all begin with a digit, a sign or nothing.
 fn table(head: &[&str], rows: &[Vec<String>], front: impl Fn(usize) -> bool, caption: &str) -> String {
-    let is_words = |column: usize| {
-        rows.iter()
-            .any(|row| row.get(column).is_some_and(|cell| !is_number(cell)))
+    let cells = |column: usize| rows.iter().filter_map(move |row| row.get(column));
+    // What no row has is no column.
+    let columns: Vec<usize> = (0..head.len())
+        .filter(|column| cells(*column).any(|cell| !cell.is_empty()))
+        .collect();
+    let class = |column: usize| {
+        if cells(column).all(|cell| is_number(cell)) {
+            ""
+        } else {
+            " class=\"words\""
+        }
     };
-    let class = |column: usize| if is_words(column) { " class=\"words\"" } else { "" };
     let cell = |kind: &str, column: usize, text: &str| format!("<{kind}{}>{}</{kind}>", class(column), escape(text));
-    let names: String = head.iter().enumerate().map(|(i, name)| cell("th", i, name)).collect();
+    let names: String = columns
+        .iter()
+        .map(|column| cell("th", *column, head[*column]))
+        .collect();
     let row = |(i, row): (usize, &Vec<String>)| {
-        let cells: String = row
-            .iter()
-            .enumerate()
-            .map(|(column, text)| cell("td", column, text))
-            .collect();
+        let text = |column: &usize| row.get(*column).map_or("", String::as_str);
+        let cells: String = columns.iter().map(|column| cell("td", *column, text(column))).collect();
         format!("<tr{}>{cells}</tr>\n", if front(i) { " class=\"front\"" } else { "" })
     };
     let body: String = rows.iter().enumerate().map(row).collect();
@@ -200,25 +207,26 @@ pub(super) fn scaling(scaling: &Scaling, device: &Device) -> String {
         "<section id=\"scaling\">\n<h2>Scaling on paper</h2>\n{}",
         table(&head, &rows, |_| false, &caption)
     );
-    let checks: Vec<Vec<String>> = scaling
-        .checks
-        .iter()
-        .map(|c| {
-            vec![
-                thousands(c.leaves),
-                figure(c.measured_ms),
-                figure(c.predicted_ms),
-                figure(c.ratio),
-            ]
-        })
-        .collect();
+    let ratio = |ratio: Option<f64>| ratio.map_or(String::new(), figure);
+    let check = |c: &crate::scaling::Check| {
+        vec![
+            thousands(c.leaves),
+            figure(c.measured_ms),
+            ratio(c.line_ratio),
+            ratio(c.model_ratio),
+        ]
+    };
+    let checks: Vec<Vec<String>> = scaling.checks.iter().map(check).collect();
     if !checks.is_empty() {
-        let head = ["leaves", "measured ms", "line ms", "line / measured"];
+        let head = ["leaves", "measured ms", "line / measured", "model / measured"];
         let power = scaling.growth.map_or(String::new(), |law| {
-            format!(" Time grows as leaves to the power of {:.2}.", law.exponent)
+            format!(
+                " Time grows as leaves to the power of {:.2} over all sizes.",
+                law.exponent
+            )
         });
         let caption = format!(
-            "The line start + leaves × cost, fitted to {}: near 1 where the model holds.{power}",
+            "Sizes measured on {}. The line start + leaves × cost is fitted to all but the largest. Near 1: the prediction holds.{power}",
             device.name
         );
         text += &table(&head, &checks, |_| false, &caption);

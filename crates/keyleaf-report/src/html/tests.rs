@@ -33,7 +33,12 @@ fn report() -> Report {
         tool: record.tool,
         device: record.device,
         notes: vec!["A note.".to_owned()],
-        scaling: Some(scaling(&model, &device_classes(), &growth.map(|g| (g.leaves, g.ms)))),
+        scaling: Some(scaling(
+            &model,
+            &device_classes(),
+            &growth.map(|g| (g.leaves, g.ms)),
+            None,
+        )),
         scenes: vec![SceneReport {
             name: "torus".to_owned(),
             camera: "start".to_owned(),

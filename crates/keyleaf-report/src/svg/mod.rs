@@ -1,7 +1,7 @@
 //! Figures as SVG, without scripts: scatter plots and stacked bars.
 //!
-//! Colours and fonts are classes, so that one style sheet ([`STYLE`]) serves light and dark screens and print; [`standalone`] embeds it. Series
-//! differ by colour and by the shape of their markers. Labels are placed where they cover nothing, or not at all: tables have them.
+//! Colours and fonts are classes, so that one style sheet ([`STYLE`]) serves light and dark screens and print; [`standalone`] embeds
+//! it. Series differ by colour and by the shape of their markers. Labels are placed where they cover nothing, or not at all: tables have them.
 
 mod bars;
 mod element;

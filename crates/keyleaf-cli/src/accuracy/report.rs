@@ -84,7 +84,7 @@ pub fn add_scaling(report: &mut Report) {
         efficiency: EFFICIENCY,
     };
     let measured: Vec<(f64, f64)> = growth().map(|point| (point.leaves, point.ms)).collect();
-    report.scaling = Some(scaling(&model, &device_classes(), &measured));
+    report.scaling = Some(scaling(&model, &device_classes(), &measured, None));
 }
 
 /// All settings of a scene, measured.

@@ -2,5 +2,5 @@
 
 fn tinted(colour: vec3f, hue: vec3f) -> vec3f {
     let grey = dot(colour, vec3f(0.2126, 0.7152, 0.0722));
-    return hue * mix(grey, 0.3, 0.25) * 1.4;
+    return hue * mix(grey, 0.32, 0.4) * 1.8;
 }

@@ -105,7 +105,7 @@ pub const SHORTCUTS: &[Shortcut] = &[
     plain(Key::Num0, "0", "plain surface", || Action::Tint(Tint::None)),
     plain(Key::Z, "Z", "freeze the quadtree", || Action::Freeze),
     plain(Key::M, "M", "minimap", || Action::Minimap),
-    plain(Key::Tab, "Tab", "figures and settings", || Action::Panel),
+    plain(Key::I, "I", "figures and settings", || Action::Panel),
     plain(Key::Space, "Space", "play or pause the path", || Action::Play),
     plain(Key::R, "R", "record a path, end and save it", || Action::Record),
     plain(Key::P, "P", "picture of the window", || Action::Screenshot {
@@ -148,7 +148,7 @@ pub const GESTURES: &[(&str, &str)] = &[
 
 /// What was asked for by keys in this frame.
 pub fn pressed(context: &egui::Context) -> Vec<Action> {
-    if context.egui_wants_keyboard_input() {
+    if context.text_edit_focused() {
         return Vec::new();
     }
     context.input_mut(|input| {

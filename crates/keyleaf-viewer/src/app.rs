@@ -521,7 +521,8 @@ impl ApplicationHandler<Wake> for App {
 
     fn window_event(&mut self, events: &ActiveEventLoop, _: WindowId, event: WindowEvent) {
         let Some(shell) = &mut self.shell else { return };
-        if shell.interface.on_window_event(&shell.window, &event).repaint {
+        let is_redraw = event == WindowEvent::RedrawRequested;
+        if shell.interface.on_window_event(&shell.window, &event).repaint && !is_redraw {
             shell.window.request_redraw();
         }
         match event {

@@ -11,6 +11,8 @@ use std::sync::{Arc, Mutex};
 pub struct Gpu {
     /// Adapter, device and queue.
     pub headless: Headless,
+    instance: wgpu::Instance,
+    window: Arc<Window>,
     surface: wgpu::Surface<'static>,
     config: wgpu::SurfaceConfiguration,
     lost: Arc<AtomicBool>,
@@ -65,6 +67,8 @@ impl Gpu {
         }));
         Ok(Self {
             headless,
+            instance,
+            window: Arc::clone(window),
             surface,
             config,
             lost,
@@ -98,6 +102,8 @@ impl Gpu {
 
     /// Whether everything on the device is gone.
     pub fn is_lost(&self) -> bool {
+        // The news comes with the answers of the device; a device that does not answer has its own news.
+        let _ = self.headless.device.poll(wgpu::PollType::Poll);
         self.lost.load(Ordering::Acquire)
     }
 
@@ -122,10 +128,18 @@ impl Gpu {
                     _ => Acquired::Skip,
                 }
             }
-            Current::Outdated | Current::Lost => {
+            Current::Outdated => {
                 self.surface.configure(&self.headless.device, &self.config);
                 Acquired::Again
             }
+            Current::Lost => match self.instance.create_surface(Arc::clone(&self.window)) {
+                Ok(surface) => {
+                    self.surface = surface;
+                    self.surface.configure(&self.headless.device, &self.config);
+                    Acquired::Again
+                }
+                Err(_) => Acquired::Skip,
+            },
             Current::Timeout | Current::Occluded | Current::Validation => Acquired::Skip,
         }
     }

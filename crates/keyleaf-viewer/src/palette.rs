@@ -11,6 +11,11 @@ pub const FROZEN: Color32 = Color32::from_rgb(112, 214, 255);
 /// The picked leaf.
 pub const PICKED: Color32 = Color32::from_rgb(255, 214, 64);
 
+/// The colour of the picked leaf as text.
+pub fn picked(dark: bool) -> Color32 {
+    if dark { PICKED } else { Color32::from_rgb(160, 96, 0) }
+}
+
 /// Colours of the phases of an update and of the draw, in the order of the plots.
 pub const PASSES: [Color32; 6] = [
     Color32::from_rgb(255, 138, 101),
@@ -83,6 +88,14 @@ fn visuals(theme: Theme) -> Visuals {
             Color32::from_rgb(222, 227, 234),
         ),
     };
+    v.weak_text_color = Some(match theme {
+        Theme::Dark => Color32::from_rgb(148, 157, 168),
+        Theme::Light => Color32::from_rgb(96, 104, 115),
+    });
+    v.override_text_color = Some(match theme {
+        Theme::Dark => Color32::from_rgb(222, 227, 233),
+        Theme::Light => Color32::from_rgb(28, 32, 38),
+    });
     v.panel_fill = panel;
     v.window_fill = panel;
     v.extreme_bg_color = deep;

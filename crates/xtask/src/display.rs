@@ -6,9 +6,25 @@ use std::process::{Child, Command, Stdio};
 use anyhow::{Context, ensure};
 
 use crate::packages::{self, Elsewhere};
-use crate::run;
+use crate::{run, vulkan};
 
-const PACKAGES: [&str; 1] = ["xvfb"];
+/// The server, and what programs open windows with: they look for these when they start.
+const PACKAGES: [&str; 6] = [
+    "xvfb",
+    "libx11-6",
+    "libx11-xcb1",
+    "libxcursor1",
+    "libxi6",
+    "libxkbcommon-x11-0",
+];
+/// What must be there of them.
+const LIBRARIES: [&str; 5] = [
+    "libX11.so.6",
+    "libX11-xcb.so.1",
+    "libXcursor.so.1",
+    "libXi.so.6",
+    "libxkbcommon-x11.so.0",
+];
 const ELSEWHERE: [Elsewhere; 4] = [
     ("dnf", "sudo dnf install xorg-x11-server-Xvfb"),
     ("pacman", "sudo pacman -S xorg-server-xvfb"),
@@ -24,13 +40,19 @@ pub fn set_up() -> anyhow::Result<()> {
     if !cfg!(target_os = "linux") || is_there() {
         return Ok(());
     }
-    packages::install("the tests of the viewer need Xvfb", &PACKAGES, &ELSEWHERE)?;
+    packages::install(
+        "the viewer is tested with Xvfb, and it or a library of X11 is not there",
+        &PACKAGES,
+        &ELSEWHERE,
+    )?;
     ensure!(is_there(), "xvfb was installed, but Xvfb does not start");
     Ok(())
 }
 
 fn is_there() -> bool {
-    run::succeeds("sh", &["-c", "command -v Xvfb"])
+    let folders = vulkan::library_folders();
+    let has = |library: &&str| folders.iter().any(|folder| folder.join(library).exists());
+    run::succeeds("sh", &["-c", "command -v Xvfb"]) && LIBRARIES.iter().all(has)
 }
 
 /// A server that ends when it is dropped.

@@ -13,7 +13,7 @@ use crate::run;
 const SCRIPTS: [(&str, &str); 3] = [
     ("scenes/terrain_real.ron", "terrain"),
     ("scenes/fox.ron", "fox"),
-    ("scenes/goblet.ron", "goblet"),
+    ("scenes/creases.ron", "creases"),
 ];
 /// Size of the window in pixels.
 const SIZE: &str = "1280x800";

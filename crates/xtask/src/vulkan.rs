@@ -105,7 +105,7 @@ fn library_path(manifest: &str) -> Option<&str> {
 }
 
 /// Folders in which the dynamic linker may find the loader.
-fn library_folders() -> Vec<PathBuf> {
+pub fn library_folders() -> Vec<PathBuf> {
     let mut folders: Vec<PathBuf> = env::var_os("LD_LIBRARY_PATH")
         .iter()
         .flat_map(|paths| env::split_paths(paths).collect::<Vec<_>>())

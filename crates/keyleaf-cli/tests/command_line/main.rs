@@ -3,12 +3,14 @@
 mod accuracy;
 mod back_faces;
 mod bad_input;
+mod display;
 mod flights;
 mod models;
 mod oracles;
 mod pictures;
 mod reports;
 mod subdivision;
+mod viewer;
 
 use serde_json::Value;
 use std::path::PathBuf;

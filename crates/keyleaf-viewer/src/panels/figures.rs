@@ -5,7 +5,7 @@ use crate::palette;
 use crate::panels::thousands;
 use crate::viewer::Viewer;
 use egui::{Align2, Color32, FontId, Grid, ProgressBar, Rect, RichText, Sense, Ui, pos2, vec2};
-use egui_plot::{HLine, Line, LineStyle, Plot, PlotPoints};
+use egui_plot::{GridInput, GridMark, HLine, Line, LineStyle, Plot, PlotPoints};
 
 /// How many leaves, triangles and changes.
 pub fn counts(viewer: &mut Viewer, ui: &mut Ui) {
@@ -146,6 +146,8 @@ fn plot(costs: &Costs, ui: &mut Ui) {
         .include_x(costs::FRAMES as f64)
         .y_axis_formatter(|mark, _| format!("{} ms", mark.value))
         .y_axis_min_width(44.0)
+        .y_grid_spacer(few_marks)
+        .grid_spacing(egui::Rangef::new(8.0, 24.0))
         .set_margin_fraction(vec2(0.0, 0.08))
         .show(ui, |plot| {
             let offset = costs::FRAMES - costs.samples.len();
@@ -175,6 +177,24 @@ fn plot(costs: &Costs, ui: &mut Ui) {
                 plot.hline(line("p99", p99));
             }
         });
+}
+
+/// Two or three marks between the bounds, at a number that is easy to read.
+pub(super) fn few_marks(input: GridInput) -> Vec<GridMark> {
+    let (low, high) = input.bounds;
+    let third = ((high - low) / 2.2).max(1e-9);
+    let power = 10f64.powf(third.log10().floor());
+    let step = [5.0, 2.0, 1.0]
+        .map(|n| n * power)
+        .into_iter()
+        .find(|s| *s <= third)
+        .unwrap_or(power);
+    let first = (low / step).ceil() as i64;
+    (first..=first + 4)
+        .map(|i| i as f64 * step)
+        .filter(|value| *value <= high)
+        .map(|value| GridMark { value, step_size: step })
+        .collect()
 }
 
 fn passes_row(ui: &mut Ui, name: &str, colour: Color32, costs: &Costs, of: impl Fn(&Sample) -> Option<f32>) {

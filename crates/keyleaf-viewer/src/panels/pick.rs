@@ -8,6 +8,7 @@ use egui::{Grid, RichText, Ui};
 /// Shows it.
 pub fn show(viewer: &mut Viewer, ui: &mut Ui) {
     let Some(picked) = &viewer.picked else { return };
+    let colour = palette::picked(ui.visuals().dark_mode);
     Grid::new("picked").num_columns(2).spacing([10.0, 3.0]).show(ui, |ui| {
         let mut row = |name: &str, tip: &str, value: RichText| {
             ui.label(RichText::new(name).weak()).on_hover_text(tip);
@@ -15,7 +16,7 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui) {
             ui.end_row();
         };
         row("surface", "its name in the scene", RichText::new(&picked.surface));
-        let digits = RichText::new(picked.digits()).monospace().color(palette::PICKED);
+        let digits = RichText::new(picked.digits()).monospace().color(colour).strong();
         row(
             "key",
             "the digits of the key, a child 0 to 3 for each level, root first",

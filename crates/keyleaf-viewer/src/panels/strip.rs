@@ -3,6 +3,7 @@
 use crate::costs::Costs;
 use crate::document::Document;
 use crate::palette;
+use crate::panels::figures::few_marks;
 use crate::viewer::Viewer;
 use egui::{RichText, Ui, vec2};
 use egui_plot::{MarkerShape, Plot, Points};
@@ -107,6 +108,9 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui) {
         .x_axis_formatter(|mark, _| format!("{} px", mark.value))
         .y_axis_formatter(|mark, _| format!("{} ms", mark.value))
         .y_axis_min_width(44.0)
+        .x_grid_spacer(few_marks)
+        .y_grid_spacer(few_marks)
+        .grid_spacing(egui::Rangef::new(8.0, 24.0))
         .set_margin_fraction(vec2(0.06, 0.08))
         .show(ui, |plot| {
             for (i, point) in points.iter().enumerate() {

@@ -10,14 +10,14 @@ use egui::{ComboBox, RichText, Slider, Ui};
 pub fn show(viewer: &mut Viewer, ui: &mut Ui) {
     ui.horizontal(|ui| {
         let motion = viewer.timeline.motion;
-        let label = if motion == Motion::Playing { "⏸" } else { "▶" };
+        let label = if motion == Motion::Playing { "Pause" } else { "Play" };
         let has_path = viewer.path().is_some();
         let play = ui.add_enabled(has_path && motion != Motion::Recording, egui::Button::new(label));
         if play.on_hover_text("play or pause the camera path  (Space)").clicked() {
             viewer.actions.push(Action::Play);
         }
         let is_recording = motion == Motion::Recording;
-        let dot = RichText::new(if is_recording { "⏹" } else { "⏺" }).color(palette::ALARM);
+        let dot = RichText::new(if is_recording { "Stop" } else { "Record" }).color(palette::ALARM);
         let tip = "record a camera path while you move; again to end it and save it as a file  (R)";
         if ui
             .add_enabled(viewer.document.is_some(), egui::Button::new(dot))

@@ -28,12 +28,7 @@ fn parts(viewer: &mut Viewer, ui: &mut Ui) {
     let all = [
         (viewer.shown.help, "?", "keys and gestures  (?)", Action::Help),
         (false, theme, "the other theme  (T)", Action::Theme),
-        (
-            viewer.shown.panel,
-            "Panel",
-            "figures and settings  (Tab)",
-            Action::Panel,
-        ),
+        (viewer.shown.panel, "Panel", "figures and settings  (I)", Action::Panel),
         (
             viewer.shown.minimap,
             "Map",

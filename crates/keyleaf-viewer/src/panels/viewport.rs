@@ -65,7 +65,7 @@ fn pointer(viewer: &mut Viewer, ui: &Ui, response: &Response) {
 
 /// Keys that are held move the camera in flight.
 fn fly(viewer: &mut Viewer, ui: &Ui, seconds: f64) {
-    if viewer.camera.mode != Mode::Fly || ui.ctx().egui_wants_keyboard_input() {
+    if viewer.camera.mode != Mode::Fly || ui.ctx().text_edit_focused() {
         return;
     }
     let keys = ui.input(|input| {

@@ -75,7 +75,11 @@ fn control() {
 #[test]
 fn attributes() {
     let (found, span) = members(
-        &parse(&["draw/varying_attributes.wgsl", "surfaces/mesh.wgsl"]),
+        &parse(&[
+            "draw/varying_attributes.wgsl",
+            "draw/mark_none.wgsl",
+            "surfaces/mesh.wgsl",
+        ]),
         "Attribute",
     );
     let offsets: Vec<usize> = found.iter().map(|(_, offset)| *offset as usize).collect();

@@ -98,12 +98,12 @@ fn compare(name: &str, topology: &Topology, quadtree: &Quadtree, posed: &Subdivi
     }
     for root in topology.roots() {
         let record = 8 * topology.half_edge_index(root.face, root.root) as usize;
-        for word in record + 2..record + 5 {
-            let [found, truth] = [b[word], tables.b[word]].map(f32::from_bits);
+        let words = record + 2..record + 5;
+        for (found, truth) in b[words.clone()].iter().zip(&tables.b[words]) {
+            let [found, truth] = [found, truth].map(|word| f32::from_bits(*word));
             assert!(
                 found >= truth * (1.0 - 1e-6) && found <= truth * 1.0001 + 1e-3 * (EPSILON * largest) as f32,
-                "{name}: {root:?} word {}: {found} {truth}",
-                word - record
+                "{name}: {root:?}: {found} {truth}"
             );
         }
     }

@@ -1,7 +1,7 @@
 //! QAS against tables made in f64 by independent code, where the folder that holds them is there.
 
 use crate::emulation::Emulation;
-use crate::oracle_tables::{floats, oracle, rows};
+use crate::oracle_tables::{oracle, rows};
 use crate::refine::{Refined, Scheme};
 use glam::DVec3;
 use keyleaf_surface::{

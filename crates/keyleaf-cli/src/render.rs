@@ -6,14 +6,14 @@ use crate::difference::{self, Quantity};
 use crate::output::{self, thousands};
 use crate::session::{self, DeviceReport};
 use crate::timing;
-use anyhow::ensure;
+use anyhow::{Context, ensure};
 use clap::{Args, ValueEnum};
 use glam::{DVec3, UVec2};
 use image::{DynamicImage, ImageBuffer, ImageFormat};
 use keyleaf::headless::Headless;
 use keyleaf::shading::Tint;
 use keyleaf::{KeyleafError, View};
-use keyleaf_stage::{Canvas, Deviations, Loaded, Show, Stage, StageLook, Timer};
+use keyleaf_stage::{Canvas, Deviations, Loaded, Show, Stage, StageLook, Timer, construction};
 use serde_json::json;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
@@ -27,7 +27,8 @@ use std::time::Instant;
   keyleaf render scenes/terrain_real.ron -o terrain.png
   keyleaf render cow.obj -o cow.png --eye 3,2,4 --look-at 0,1,0 --fov 40 --size 800x600 --wireframe
   keyleaf render scenes/fox.ron -o fox.exr --channel position --json
-  keyleaf render scenes/valences.ron -o error.png --channel error")]
+  keyleaf render scenes/valences.ron -o error.png --channel error
+  keyleaf render scenes/gaussian.ron -o gaussian.png --cage --ellipsoids 0.5")]
 pub struct Arguments {
     #[command(flatten)]
     scene: SceneArguments,
@@ -58,6 +59,40 @@ pub struct OverlayArguments {
     /// Tint leaves by their level
     #[arg(long)]
     pub level_tint: bool,
+    /// Draw the edges of control meshes
+    #[arg(long)]
+    pub cage: bool,
+    /// Draw the ellipsoids of covariances, so many standard deviations large [default: 1]
+    #[arg(long, value_name = "SIGMAS", num_args = 0..=1, default_missing_value = "1", value_parser = parse_sigmas)]
+    pub ellipsoids: Option<f64>,
+}
+
+/// A size in standard deviations.
+fn parse_sigmas(text: &str) -> anyhow::Result<f64> {
+    let sigmas: f64 = text.parse().context("expected a number of standard deviations")?;
+    ensure!(
+        sigmas > 0.0 && sigmas <= 1e3,
+        "expected a number of standard deviations above 0, at most 1000"
+    );
+    Ok(sigmas)
+}
+
+impl OverlayArguments {
+    /// Adds what surfaces are made of.
+    fn add_construction(self, loaded: &mut Loaded, time: f64) {
+        let made: Vec<_> = loaded
+            .objects
+            .iter()
+            .flat_map(|object| {
+                let cage = self.cage.then(|| construction::control_cage(object, time));
+                let ellipsoids = self
+                    .ellipsoids
+                    .map(|sigmas| construction::ellipsoids(object, time, sigmas));
+                [cage, ellipsoids].into_iter().flatten().flatten()
+            })
+            .collect();
+        loaded.objects.extend(made);
+    }
 }
 
 /// A channel as the command line names it.
@@ -109,15 +144,22 @@ impl Channel {
 pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
     let start = Instant::now();
     let format = format(&arguments.output, arguments.channel)?;
-    let is_overlay = arguments.overlay.wireframe || arguments.overlay.level_tint;
+    let OverlayArguments {
+        wireframe,
+        level_tint,
+        cage,
+        ellipsoids,
+    } = arguments.overlay;
+    let is_overlay = wireframe || level_tint || cage || ellipsoids.is_some();
     ensure!(
         arguments.channel == Channel::Color || !is_overlay,
-        "--wireframe and --level-tint need the channel color"
+        "--wireframe, --level-tint, --cage and --ellipsoids need the channel color"
     );
     output::ensure_writable(&arguments.output)?;
     let mut loaded = arguments.scene.load(quiet)?;
     loaded.pose(arguments.view.time)?;
     let (camera, view) = arguments.view.view(&loaded)?;
+    arguments.overlay.add_construction(&mut loaded, arguments.view.time);
 
     let gpu = session::device()?;
     let look = arguments.channel.look(arguments.overlay);

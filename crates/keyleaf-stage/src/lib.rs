@@ -10,11 +10,13 @@
 //! | [`ErrorProbe`] | how far drawn triangles are from the surface |
 //! | [`Timer`], [`Settling`] | what passes cost; whether anything still changes |
 //! | [`mesh`] | the triangles that are drawn, for export |
+//! | [`construction`] | control meshes and covariances, to be drawn beside their surface |
 //! | [`check`] | what is wrong with what the GPU holds: nothing, one hopes |
 
 #![deny(missing_docs)]
 
 pub mod check;
+pub mod construction;
 mod drawn;
 mod error_probe;
 mod load;

@@ -7,13 +7,14 @@ use serde_json::Value;
 use std::collections::HashMap;
 use std::fmt::Write;
 
-const CATMULL_CLARK: [&str; 10] = [
+const CATMULL_CLARK: [&str; 11] = [
     "cube",
     "cube_creases0",
     "cube_corner1",
     "chaikin0",
     "dart_edgeonly",
     "edgecorner",
+    "edgenone",
     "nonquads",
     "tent_creases0",
     "xord_boundary",
@@ -226,5 +227,95 @@ fn qas_is_evaluated_as_exactly_as_f32_allows() {
             let angle = DVec3::from_slice(&own[9..]).distance(DVec3::from_slice(&row[6..]).normalize());
             assert!(angle <= 1e-4, "{name}: {angle} rad");
         }
+    }
+}
+
+/// A covariance mesh as an OFF with six numbers more a vertex.
+fn off(table: &Value) -> String {
+    let list = |name: &str| -> Vec<Vec<f64>> { table[name].as_array().unwrap().iter().map(floats).collect() };
+    let (vertices, faces) = (list("verts"), list("faces"));
+    let words = |numbers: &[f64]| numbers.iter().map(|n| format!(" {n}")).collect::<String>();
+    let mut text = format!("OFF\n{} {} 0\n", vertices.len(), faces.len());
+    for (vertex, covariance) in vertices.iter().zip(list("cov6_xx_xy_xz_yy_yz_zz")) {
+        writeln!(text, "{}{}", words(vertex).trim(), words(&covariance)).unwrap();
+    }
+    for face in &faces {
+        writeln!(text, "{}{}", face.len(), words(face)).unwrap();
+    }
+    text
+}
+
+/// The greatest ratio of eigenvalues of a covariance.
+fn condition(table: &Value) -> f64 {
+    let of = |c: &[f64]| {
+        let [xx, xy, xz, yy, yz, zz] = <[f64; 6]>::try_from(c).unwrap();
+        let matrix = glam::DMat3::from_cols_array(&[xx, xy, xz, xy, yy, yz, xz, yz, zz]);
+        let norm = |m: glam::DMat3| m.to_cols_array().iter().map(|x| x * x).sum::<f64>().sqrt();
+        norm(matrix) * norm(matrix.inverse())
+    };
+    let all = table["cov6_xx_xy_xz_yy_yz_zz"].as_array().unwrap();
+    all.iter().map(|c| of(&floats(c))).fold(1.0, f64::max)
+}
+
+#[test]
+fn gaussian_products_are_evaluated_as_exactly_as_their_covariances_allow() {
+    let names = [
+        "cone_concave_warren",
+        "cone_cylinder_warren",
+        "cone_plateau_loop",
+        "cone_plateau_warren",
+        "cone_pointy_warren",
+        "cube_iso_equal",
+        "grid4x4_boundary",
+    ];
+    for name in names {
+        let Some(table) = table(&format!("gps/{name}")) else {
+            return;
+        };
+        let folder = Folder::new(&format!("gps-{name}"));
+        folder.write("model.off", off(&table));
+        let scheme = match (table["scheme"].as_str(), table["loop_weights"].as_str()) {
+            (Some("cc"), _) => "CatmullClark",
+            (_, Some("warren")) => "LoopWarren",
+            _ => "Loop",
+        };
+        folder.write(
+            "scene.ron",
+            format!(
+                "Scene(surfaces: [Surface(name: \"gps\", source: Mesh(\"model.off\"), surface: GaussianProduct(scheme: {scheme}, \
+                 sharpness: (boundary: Edges)))])"
+            ),
+        );
+        let steps = 2f64.powf(table["limit"]["level"].as_f64().unwrap());
+        let rows: Vec<&Vec<Value>> = table["limit"]["rows"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|row| row.as_array().unwrap())
+            .collect();
+        let number = |row: &[Value], k: usize| row[k].as_f64().unwrap_or(f64::NAN);
+        let points = rows.iter().map(|row| {
+            format!(
+                "{},{},{}",
+                number(row, 0),
+                number(row, 1) / steps,
+                number(row, 2) / steps
+            )
+        });
+        let found = evaluate(&folder, "scene.ron", "face,u,v", points);
+        let bound = 64.0 * condition(&table) * EPSILON * 2.0 * largest(&table);
+        let mut worst: [f64; 2] = [0.0; 2];
+        for (own, row) in found.iter().zip(&rows) {
+            let vector = |k: usize| DVec3::new(number(row, k), number(row, k + 1), number(row, k + 2));
+            worst[0] = worst[0].max(DVec3::from_slice(own).distance(vector(3)));
+            let normal = DVec3::from_slice(&own[9..]);
+            assert!((normal.length() - 1.0).abs() < 1e-6, "{name}: {normal}");
+            if row.len() >= 9 && vector(6).is_finite() {
+                worst[1] = worst[1].max(normal.distance(vector(6)));
+            }
+        }
+        println!("{name}: {:.1e} of {bound:.1e}, normals {:.1e} rad", worst[0], worst[1]);
+        assert!(worst[0] <= bound, "{name}: {:e} of {bound:e}", worst[0]);
+        assert!(worst[1] <= 1e-3, "{name}: normals {:e} rad", worst[1]);
     }
 }

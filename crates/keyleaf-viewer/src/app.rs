@@ -1,30 +1,25 @@
 //! The event loop: window events in, frames out, and rest while nothing changes.
 
 use crate::action::{self, Action};
-use crate::document::Document;
-use crate::frame::Painter;
-use crate::gpu::Gpu;
-use crate::opening::{self, Opened, Wanted};
+use crate::opening::Opened;
 use crate::perform::Ask;
 use crate::picking::Picker;
 use crate::reload::{Changed, Watch};
 use crate::remembered::Remembered;
 use crate::script::{Input, Script};
-use crate::viewer::{DeviceText, Viewer};
-use crate::{Options, library, palette, panels};
+use crate::shell::Shell;
+use crate::viewer::Viewer;
+use crate::{Options, library, panels};
 use anyhow::Context;
 use egui::ViewportId;
 use egui_winit::winit;
-use keyleaf_scene::scene::CameraPath;
 use keyleaf_stage::Pipelines;
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 use winit::application::ApplicationHandler;
-use winit::dpi::{LogicalSize, PhysicalPosition};
 use winit::event::{StartCause, WindowEvent};
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
-use winit::window::{Window, WindowId};
+use winit::window::WindowId;
 
 /// What wakes the loop from other threads.
 pub enum Wake {
@@ -52,14 +47,6 @@ pub fn run(options: Options) -> anyhow::Result<()> {
     app.outcome
 }
 
-/// Window, device and interface: what is there between `resumed` and the end.
-pub(crate) struct Shell {
-    pub window: Arc<Window>,
-    pub gpu: Gpu,
-    pub painter: Painter,
-    pub interface: egui_winit::State,
-}
-
 /// The viewer with its window.
 pub struct App {
     pub(crate) options: Options,
@@ -80,7 +67,7 @@ pub struct App {
     pub(crate) refused: Vec<String>,
     script: Option<Script>,
     changed: Option<(Changed, Instant)>,
-    remembered: Remembered,
+    pub(crate) remembered: Remembered,
     is_hidden: bool,
     last_frame: Instant,
     outcome: anyhow::Result<()>,
@@ -128,160 +115,11 @@ impl App {
         self.script.is_some()
     }
 
-    fn start(&mut self, events: &ActiveEventLoop) -> anyhow::Result<()> {
-        let size = self
-            .options
-            .size
-            .map(|size| size.map(f64::from))
-            .or(self.remembered.size);
-        let [width, height] = size.unwrap_or([1280.0, 800.0]);
-        let mut attributes = Window::default_attributes()
-            .with_title("keyleaf")
-            .with_inner_size(LogicalSize::new(width, height))
-            .with_maximized(self.remembered.maximised && self.options.size.is_none());
-        if let Some([x, y]) = self.remembered.position {
-            attributes = attributes.with_position(PhysicalPosition::new(x, y));
-        }
-        let window = Arc::new(events.create_window(attributes).context("there is no window")?);
-        palette::set_themes(&self.context);
-        self.set_theme();
-        self.shell = Some(self.shell(window)?);
-        if let Some(file) = self.options.file.clone() {
-            self.open(Wanted::File(file, self.options.reading), false);
-        }
-        Ok(())
-    }
-
-    /// Device and interface for a window.
-    fn shell(&mut self, window: Arc<Window>) -> anyhow::Result<Shell> {
-        let gpu = Gpu::new(&window, self.options.present)?;
-        let painter = Painter::new(&gpu);
-        let most = gpu.headless.device.limits().max_texture_dimension_2d as usize;
-        let scale = window.scale_factor() as f32;
-        let interface = egui_winit::State::new(
-            self.context.clone(),
-            ViewportId::ROOT,
-            &window,
-            Some(scale),
-            window.theme(),
-            Some(most),
-        );
-        let info = gpu.headless.adapter.get_info();
-        self.viewer.device = DeviceText {
-            name: info.name.clone(),
-            driver: format!("{}, {} {}", info.backend, info.driver, info.driver_info),
-            present: format!("{:?}", gpu.present_mode()).to_lowercase(),
-            is_software: gpu.headless.is_software(),
-        };
-        Ok(Shell {
-            window,
-            gpu,
-            painter,
-            interface,
-        })
-    }
-
     /// The theme that was chosen.
     pub(crate) fn set_theme(&self) {
         let light = self.viewer.shown.light;
         self.context
             .set_theme(if light { egui::Theme::Light } else { egui::Theme::Dark });
-    }
-
-    /// Opens something beside the loop; a camera path joins those of the scene that is open.
-    pub(crate) fn open(&mut self, wanted: Wanted, is_again: bool) {
-        if let (Wanted::File(file, _), Some(document)) = (&wanted, &mut self.viewer.document)
-            && file.extension().is_some_and(|e| e == "ron")
-            && let Ok(text) = std::fs::read_to_string(file)
-            && let Ok(path) = CameraPath::from_ron(&text, file)
-        {
-            let paths = &mut document.loaded.scene.paths;
-            paths.retain(|other| other.name != path.name);
-            paths.push(path);
-            self.viewer.timeline = Default::default();
-            self.viewer.timeline.chosen = paths.len() - 1;
-            return;
-        }
-        let file = match &wanted {
-            Wanted::File(file, _) | Wanted::Scene(file, _) => file.clone(),
-        };
-        self.request += 1;
-        self.viewer.opening = Some(file);
-        opening::open(wanted, is_again, self.request, self.proxy.clone());
-    }
-
-    /// A file was opened: shows it, or says why not and keeps the last scene.
-    fn opened(&mut self, opened: Opened) {
-        if opened.number != self.request {
-            return;
-        }
-        self.viewer.opening = None;
-        let shell = match &self.shell {
-            Some(shell) => shell,
-            None => return,
-        };
-        let gpu = &shell.gpu.headless;
-        let made = opened
-            .result
-            .map_err(anyhow::Error::msg)
-            .and_then(|loaded| Document::new(gpu, loaded, &mut self.pipelines));
-        // A file that is mended is opened again.
-        let files = match &made {
-            Ok(document) => std::iter::once(opened.file.clone())
-                .chain(document.loaded.files.clone())
-                .collect(),
-            Err(_) => vec![opened.file.clone()],
-        };
-        match made {
-            Ok(document) => self.show(document, opened.is_again),
-            Err(error) => {
-                eprintln!("error: {error:#}");
-                self.viewer.complain(format!("{error:#}"));
-            }
-        }
-        if !self.is_scripted() {
-            self.watch_files(files);
-        }
-    }
-
-    fn watch_files(&mut self, mut files: Vec<PathBuf>) {
-        // The scene that is still shown may be mended too.
-        files.extend(self.viewer.document.iter().map(|d| d.loaded.file.clone()));
-        let shaders = library::shaders(files.first().map(PathBuf::as_path));
-        self.watch = Watch::new(&files, shaders.as_deref(), self.proxy.clone()).ok();
-    }
-
-    fn show(&mut self, mut document: Document, is_again: bool) {
-        let viewer = &mut self.viewer;
-        for note in &document.loaded.notes {
-            eprintln!("{note}");
-        }
-        if is_again {
-            if let (Some(before), Some(shell)) = (&viewer.document, &self.shell) {
-                // What the scene says itself was seen before, too.
-                let _ = document.set_look(&shell.gpu.headless, before.look, &mut self.pipelines);
-            }
-        } else {
-            let wanted = self.options.camera.take();
-            match document.loaded.camera(wanted.as_deref()) {
-                Ok(camera) => viewer.camera.go_to(camera),
-                Err(error) => viewer.complain(error.to_string()),
-            }
-            viewer.timeline = Default::default();
-            viewer.costs.samples.clear();
-            viewer.strip.points.clear();
-        }
-        viewer.picked = None;
-        viewer.levels.forget();
-        viewer.costs.forget_device();
-        viewer.minimap.touch();
-        if viewer.message.as_ref().is_some_and(|m| m.is_error) {
-            viewer.message = None;
-        }
-        if let Some(shell) = &self.shell {
-            shell.window.set_title(&format!("{} – keyleaf", document.name()));
-        }
-        viewer.document = Some(document);
     }
 
     /// One frame.
@@ -320,6 +158,11 @@ impl App {
         let platform = std::mem::take(&mut output.platform_output);
         shell.interface.handle_platform_output(&shell.window, platform);
         let asked = self.perform();
+        let time = self.viewer.timeline.time;
+        let posed = self.viewer.document.as_mut().map_or(Ok(()), |d| d.set_time(time));
+        if let Err(error) = posed {
+            self.viewer.complain(format!("{error:#}"));
+        }
         self.draw(output);
         self.answer(asked, events);
         self.schedule(events, delay);
@@ -387,36 +230,6 @@ impl App {
         });
     }
 
-    /// Everything on the device is gone: makes it again, and keeps what the person sees.
-    fn rebuild(&mut self) {
-        let Some(shell) = self.shell.take() else { return };
-        let window = Arc::clone(&shell.window);
-        drop(shell);
-        self.pipelines = Pipelines::default();
-        self.picker = Picker::default();
-        self.viewer.costs.forget_device();
-        self.viewer.minimap.forget_device();
-        self.viewer.picture = None;
-        // The interface keeps its state, but sends all textures again.
-        self.context = egui::Context::default();
-        palette::set_themes(&self.context);
-        self.set_theme();
-        match self.shell(window) {
-            Ok(shell) => {
-                let before = self.viewer.document.take();
-                self.shell = Some(shell);
-                if let (Some(before), Some(shell)) = (before, &self.shell) {
-                    match before.on(&shell.gpu.headless, &mut self.pipelines) {
-                        Ok(document) => self.viewer.document = Some(document),
-                        Err(error) => self.viewer.complain(format!("{error:#}")),
-                    }
-                }
-                self.viewer.say("the graphics device was lost and is back");
-            }
-            Err(error) => self.fail(error.context("the graphics device is lost")),
-        }
-    }
-
     /// Ends with an error.
     pub(crate) fn fail(&mut self, error: anyhow::Error) {
         if self.outcome.is_ok() {
@@ -469,27 +282,6 @@ impl App {
                 self.viewer.complain(format!("{error:#}"));
             }
         }
-    }
-
-    fn remember(&mut self) {
-        let Some(shell) = &self.shell else { return };
-        if self.is_scripted() {
-            return;
-        }
-        let scale = shell.window.scale_factor();
-        let size: LogicalSize<f64> = shell.window.inner_size().to_logical(scale);
-        let maximised = shell.window.is_maximized();
-        Remembered {
-            size: if maximised {
-                self.remembered.size
-            } else {
-                Some([size.width, size.height])
-            },
-            position: shell.window.outer_position().ok().map(|at| [at.x, at.y]),
-            maximised,
-            shown: self.viewer.shown.clone(),
-        }
-        .save();
     }
 }
 

@@ -47,6 +47,8 @@ pub struct Document {
     pub probe: Option<ErrorProbe>,
     /// The scene as it was opened.
     pub original: Scene,
+    /// Of the pose of moving surfaces, in seconds.
+    time: f64,
     settling: Settling,
     /// Passes recorded since the quadtrees were made.
     passes: u32,
@@ -93,6 +95,7 @@ impl Document {
             stage,
             look,
             frozen: None,
+            time: 0.0,
             probe: None,
             original,
             settling: Settling::default(),
@@ -152,7 +155,12 @@ impl Document {
             } else {
                 wanted.metric
             };
-            object.settings = keyleaf::Settings { metric, ..wanted };
+            let moving = object.settings.moving;
+            object.settings = keyleaf::Settings {
+                metric,
+                moving,
+                ..wanted
+            };
         }
         let (stage, loaded, look) = (&mut self.stage, &self.loaded, self.look.of_stage());
         let result = checked(gpu, || {
@@ -163,7 +171,7 @@ impl Document {
         });
         self.probe = None;
         if let Ok(true) = result {
-            (self.passes, self.settling) = (0, Settling::default());
+            (self.passes, self.settling, self.time) = (0, Settling::default(), 0.0);
         }
         if result.is_err() {
             self.loaded.scene = scene_before;
@@ -175,6 +183,24 @@ impl Document {
         }
         self.forget();
         result.map(|_| ())
+    }
+
+    /// Whether a surface moves by itself.
+    pub fn moves(&self) -> bool {
+        self.loaded.objects.iter().any(|object| object.settings.moving)
+    }
+
+    /// Puts moving surfaces where they are at a time in seconds; what is frozen stays.
+    ///
+    /// # Errors
+    /// A pose has no surface.
+    pub fn set_time(&mut self, time: f64) -> anyhow::Result<()> {
+        if self.frozen.is_none() && self.time != time && self.moves() {
+            self.time = time;
+            self.stage.set_time(time)?;
+            self.forget();
+        }
+        Ok(())
     }
 
     /// Stops at the present view, or goes on.
@@ -302,7 +328,7 @@ impl Document {
         })?;
         *pipelines = fresh;
         self.probe = None;
-        (self.passes, self.settling) = (0, Settling::default());
+        (self.passes, self.settling, self.time) = (0, Settling::default(), 0.0);
         self.forget();
         Ok(())
     }

@@ -3,6 +3,7 @@
 //! | module | does |
 //! |---|---|
 //! | [`app`] | the event loop: window events, when to draw, when to rest |
+//! | `shell`, `opened` | window and device, made and made again; files, shown when they are there |
 //! | [`gpu`] | device and surface: made, resized, lost, made again |
 //! | [`frame`] | one frame: the interface, the update, the draw |
 //! | [`perform`] | what actions do |
@@ -32,6 +33,7 @@ pub mod ground;
 pub mod levels;
 pub mod library;
 pub mod minimap;
+mod opened;
 pub mod opening;
 pub mod palette;
 pub mod panels;
@@ -42,6 +44,7 @@ pub mod reload;
 pub mod remembered;
 pub mod screenshot;
 pub mod script;
+mod shell;
 pub mod viewer;
 
 use keyleaf_stage::LoadOptions;

@@ -16,15 +16,21 @@ pub fn picked(dark: bool) -> Color32 {
     if dark { PICKED } else { Color32::from_rgb(160, 96, 0) }
 }
 
-/// Colours of the phases of an update and of the draw, in the order of the plots.
-pub const PASSES: [Color32; 6] = [
+/// Colours of the phases of an update and of the draw, in the order of the plots; after these they come again.
+const PASSES: [Color32; 7] = [
     Color32::from_rgb(255, 138, 101),
     Color32::from_rgb(255, 202, 88),
     Color32::from_rgb(129, 199, 132),
     Color32::from_rgb(149, 117, 205),
     Color32::from_rgb(79, 195, 247),
     Color32::from_rgb(240, 98, 146),
+    Color32::from_rgb(188, 170, 164),
 ];
+
+/// The colour of a row of the plots.
+pub fn pass(row: usize) -> Color32 {
+    PASSES[row % PASSES.len()]
+}
 
 /// Stops of the scale from 0 to 1, linear RGB. Twin: `shaders/shared/scale_colour.wgsl`.
 pub const SCALE: [[f32; 3]; 5] = [

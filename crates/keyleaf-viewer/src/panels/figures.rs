@@ -118,7 +118,7 @@ pub fn times(viewer: &mut Viewer, ui: &mut Ui) {
             }
             ui.end_row();
             for (row, name) in costs::names().into_iter().enumerate() {
-                passes_row(ui, name, palette::PASSES[row], costs, move |s| s.device.map(|d| d[row]));
+                passes_row(ui, name, palette::pass(row), costs, move |s| s.device.map(|d| d[row]));
             }
             passes_row(ui, "all passes", ui.visuals().text_color(), costs, Sample::total);
             passes_row(ui, "CPU, recording", Color32::GRAY, costs, |s| Some(s.record));
@@ -160,7 +160,7 @@ fn plot(costs: &Costs, ui: &mut Ui) {
                 let points = series(&|s: &Sample| s.device.map(|d| d[row]));
                 plot.line(
                     Line::new(costs::names()[row], points)
-                        .color(palette::PASSES[row])
+                        .color(palette::pass(row))
                         .width(1.0),
                 );
             }

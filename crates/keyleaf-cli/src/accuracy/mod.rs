@@ -49,7 +49,8 @@ use studio::Setup;
 /// methods for basis functions × degree, milliseconds and f32 error; it needs no scene.
 ///
 /// The suite komar is for subdivision surfaces: isolation of extraordinary vertices × preprocessing, memory, error and milliseconds (tables
-/// 4.1, 4.6, 4.7). The suite qas is for control meshes of triangles: QAS, PN triangles and Loop surfaces against the limit.
+/// 4.1, 4.6, 4.7). The suite qas is for control meshes of triangles: QAS, PN triangles and Loop surfaces of the first one of each
+/// scene, against the limit.
 ///
 /// PSNR is of the picture against one with edges of half a pixel and nothing culled. Milliseconds are the median of a frame that
 /// updates and draws.
@@ -189,9 +190,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
             done(isolation::table(&setup, loaded, &view)?)?;
         }
         if suite == Suite::Qas {
-            for object in &loaded.objects {
-                done(quadratic::table(&setup, loaded, object, &view)?)?;
-            }
+            done(quadratic::table(&setup, loaded, &loaded.objects[0], &view)?)?;
         }
     }
     if wants(Table::Bases) {
@@ -271,6 +270,9 @@ fn shown_of(suite: Suite, mut loaded: Loaded) -> anyhow::Result<Loaded> {
         ),
     };
     loaded.objects.retain(is_wanted);
+    if suite == Suite::Qas {
+        loaded.objects.truncate(1);
+    }
     anyhow::ensure!(!loaded.objects.is_empty(), "{}: has no {what}", loaded.file.display());
     Ok(loaded)
 }

@@ -121,7 +121,7 @@ fn files_are_recognised_by_ending_or_content() {
 /// Joins the surfaces of a shared file and prints what was found; `None` where the file is absent.
 fn shared(name: &str) -> Option<(PatchModel, Patches)> {
     let file = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-        .join("../../shared/data")
+        .join("../../../shared/data")
         .join(name);
     if !file.exists() {
         println!("skipped: {} is not there", file.display());

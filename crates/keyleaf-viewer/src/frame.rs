@@ -14,7 +14,6 @@ pub struct Painter {
     renderer: Renderer,
     canvas: Option<Canvas>,
     picture: Option<egui::TextureId>,
-    /// Whether all of the interface's textures must be sent again.
     jobs: Vec<ClippedPrimitive>,
     screen: ScreenDescriptor,
 }
@@ -129,6 +128,12 @@ impl Painter {
                 .record(&gpu.headless, encoder, (document, pipelines), &view, viewer.time)?;
         } else {
             viewer.costs.collect();
+            // Whoever opens the strip sees a point at once.
+            if viewer.strip.points.is_empty() {
+                viewer
+                    .strip
+                    .record(&gpu.headless, encoder, (document, pipelines), &view, viewer.time)?;
+            }
         }
         viewer.strip.collect(document, &viewer.costs);
         if viewer.shown.minimap {

@@ -120,6 +120,10 @@ impl Viewer {
 
     /// Says something for a while.
     pub fn say(&mut self, text: impl Into<String>) {
+        // What failed stays until it is read.
+        if self.message.as_ref().is_some_and(|m| m.is_error) {
+            return;
+        }
         self.message = Some(Message {
             text: text.into(),
             is_error: false,
@@ -170,6 +174,7 @@ impl Viewer {
     pub fn is_busy(&self) -> bool {
         let view = self.view();
         self.is_moving
+            || self.costs_are_late()
             || self.document.as_ref().is_some_and(|d| d.needs_frame(&view))
             || (self.shown.minimap && self.minimap.is_behind())
     }

@@ -133,7 +133,7 @@ fn viewer_freezes_and_switches_looks() {
         Key("Z"), Settle, Report("5.json"),
         Export("seen.obj")"#
     );
-    let reports = drive(&folder, "two.ron", "520x300", &steps);
+    let reports = drive(&folder, "cube.obj", "520x300", &steps);
     let count = |n: usize| (&reports[n]["leaves"], &reports[n]["visible"]);
     assert_eq!(count(0), count(1), "looks change no leaf");
     assert_eq!((&reports[2]["frozen"], count(2)), (&Value::Bool(true), count(1)));

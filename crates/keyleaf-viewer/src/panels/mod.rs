@@ -29,7 +29,7 @@ use crate::viewer::Viewer;
 use egui::{CentralPanel, Frame, Margin, Panel, ScrollArea, Ui};
 
 /// The width of the side panel, in points.
-const SIDE: f32 = 296.0;
+const SIDE: f32 = 308.0;
 
 /// Shows all parts.
 pub fn show(viewer: &mut Viewer, ui: &mut Ui, seconds: f64) {
@@ -62,6 +62,7 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui, seconds: f64) {
             .show(ui, |ui| {
                 ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                     ui.set_width(SIDE - 24.0);
+                    ui.spacing_mut().slider_width = 84.0;
                     side_panel(viewer, ui);
                 });
             });

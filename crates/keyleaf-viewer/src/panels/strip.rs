@@ -136,6 +136,10 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui) {
     ui.label(RichText::new(text).small());
     let tip =
         "mean distance of the drawn triangles from the surface, of a small picture of what is seen; ms of all passes";
-    ui.label(RichText::new("error in pixels → , milliseconds ↑").small().weak())
-        .on_hover_text(tip);
+    ui.label(
+        RichText::new("across: error in pixels; up: milliseconds")
+            .small()
+            .weak(),
+    )
+    .on_hover_text(tip);
 }

@@ -186,7 +186,7 @@ fn numbers(ui: &mut Ui, settings: &mut Settings) {
     ui.add(
         Slider::new(&mut settings.settle, 1..=64)
             .logarithmic(true)
-            .suffix(" passes"),
+            .suffix(" a frame"),
     );
     ui.end_row();
 }
@@ -198,7 +198,7 @@ fn limits(ui: &mut Ui, settings: &mut Settings) {
         "leaves that the buffers of each surface hold; what does not fit is drawn coarser",
     );
     let mut power = f64::from(settings.capacity).log2();
-    let text = |power: f64, _| crate::panels::thousands(power.exp2().round() as u64);
+    let text = |power: f64, _| format!("{:.0} k", power.exp2() / 1000.0);
     let slider = Slider::new(&mut power, 10.0..=22.0)
         .step_by(1.0)
         .custom_formatter(text)
@@ -250,8 +250,8 @@ fn faces(ui: &mut Ui, settings: &mut Settings, has_nets: bool) {
     ui.end_row();
     name(
         ui,
-        "seen from behind",
-        "for closed surfaces only: of open ones the inside vanishes",
+        "back faces",
+        "what is seen from behind; for closed surfaces only: of open ones the inside vanishes",
     );
     let all = [
         (BackFaces::Drawn, "drawn", false),

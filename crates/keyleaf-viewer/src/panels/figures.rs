@@ -140,6 +140,7 @@ fn plot(costs: &Costs, ui: &mut Ui) {
         .allow_scroll(false)
         .allow_boxed_zoom(false)
         .show_x(false)
+        .show_grid([false, true])
         .show_axes([false, true])
         .include_y(0.0)
         .include_x(0.0)

@@ -227,12 +227,13 @@ fn message(viewer: &mut Viewer, ui: &mut Ui) {
     } else {
         palette::ACCENT
     };
-    let width = (viewer.viewport.width() - 40.0).clamp(80.0, 620.0);
+    let width = (viewer.viewport.width() - 90.0).clamp(80.0, 620.0);
     let at = viewer.viewport.center_top() + vec2(0.0, 44.0);
     Area::new(Id::unique("message"))
         .fixed_pos(at)
         .pivot(Align2::CENTER_TOP)
         .constrain_to(viewer.viewport)
+        .fade_in(false)
         .show(ui.ctx(), |ui| {
             Frame::new()
                 .fill(Color32::from_rgb(27, 30, 36))
@@ -242,7 +243,10 @@ fn message(viewer: &mut Viewer, ui: &mut Ui) {
                 .show(ui, |ui| {
                     ui.set_max_width(width);
                     ui.horizontal_top(|ui| {
-                        let text = egui::RichText::new(&message.text).color(INK);
+                        let text = egui::RichText::new(message.text.trim()).color(INK);
+                        // What compilers say points at columns.
+                        let is_code = message.text.contains('\n');
+                        let text = if is_code { text.monospace() } else { text };
                         ui.add(egui::Label::new(text).wrap());
                         if message.is_error && ui.small_button("×").on_hover_text("close").clicked() {
                             viewer.message = None;

@@ -7,6 +7,9 @@ use crate::viewer::Viewer;
 use egui::{Align, Layout, RichText, Ui};
 use keyleaf::shading::Tint;
 
+/// The width of the switches on the right, in points.
+const PARTS: f32 = 190.0;
+
 /// Shows the bar.
 pub fn show(viewer: &mut Viewer, ui: &mut Ui) {
     ui.horizontal_wrapped(|ui| {
@@ -18,6 +21,9 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui) {
         looks(viewer, ui);
         ui.separator();
         freeze(viewer, ui);
+        if ui.max_rect().right() - ui.cursor().left() < PARTS {
+            ui.end_row();
+        }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| parts(viewer, ui));
     });
 }

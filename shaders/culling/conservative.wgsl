@@ -7,8 +7,8 @@ fn face_is_back(face: u32, eye: vec3f, side: f32) -> bool {
     let record = surface.half_edges + HALF_EDGE_WORDS * 4u * face;
     let axis = side * bitcast<vec3f>(vec3u(surface_b[record + 4u], surface_b[record + 5u], surface_b[record + 6u]));
     let next = record + HALF_EDGE_WORDS;
-    let cosine = bitcast<f32>(surface_b[next + 5u]);
-    let sine = bitcast<f32>(surface_b[next + 6u]);
+    let cosine = bitcast<f32>(surface_b[next + 4u]);
+    let sine = bitcast<f32>(surface_b[next + 5u]);
     let p = patch_of(face);
     for (var l = 0u; l <= p.degree.y; l++) {
         for (var k = 0u; k <= p.degree.x; k++) {

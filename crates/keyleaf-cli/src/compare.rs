@@ -21,7 +21,7 @@ pub struct Arguments {
     #[arg(value_name = "RUN", num_args = 1..=2, required = true)]
     runs: Vec<PathBuf>,
     /// Two variants of one run, by their names
-    #[arg(long, value_name = "A,B", value_delimiter = ',', num_args = 2)]
+    #[arg(long, value_name = "A,B", value_delimiter = ',', num_args = 1)]
     variants: Vec<String>,
     /// Exit with 1 if a pass takes that much more time
     #[arg(long, value_name = "PERCENT", value_parser = parse_percent)]

@@ -168,8 +168,11 @@ impl App {
         self.schedule(events, delay);
     }
 
-    fn draw(&mut self, output: egui::FullOutput) {
-        let Some(shell) = &mut self.shell else { return };
+    fn draw(&mut self, mut output: egui::FullOutput) {
+        let Some(shell) = &mut self.shell else {
+            output.textures_delta.clear();
+            return;
+        };
         let has_scene = self.viewer.document.is_some();
         let drawn = shell.painter.draw(
             &mut shell.gpu,

@@ -67,7 +67,7 @@ impl Painter {
             pixels_per_point: output.pixels_per_point,
         };
         let (device, queue) = (&gpu.headless.device, &gpu.headless.queue);
-        let deltas = std::mem::take(&mut output.textures_delta);
+        let mut deltas = std::mem::take(&mut output.textures_delta);
         for (id, images) in &deltas.set {
             for image in images {
                 self.renderer.update_texture(device, queue, *id, image);
@@ -93,6 +93,7 @@ impl Painter {
         for id in &deltas.free {
             self.renderer.free_texture(id);
         }
+        deltas.clear(); // those that are dropped full panic in debug builds
         drawn?;
         Ok(is_shown)
     }

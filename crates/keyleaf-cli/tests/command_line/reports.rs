@@ -6,7 +6,9 @@ use serde_json::Value;
 #[test]
 fn every_command_has_help_with_an_example() {
     let folder = Folder::new("help");
-    for command in ["render", "export", "eval", "check", "bench", "plan", "info"] {
+    for command in [
+        "view", "render", "export", "eval", "check", "bench", "compare", "accuracy", "plan", "info",
+    ] {
         let help = folder.succeed(&format!("{command} --help"));
         assert!(
             help.contains(&format!("keyleaf {command} ")) && help.contains("Example"),
@@ -14,7 +16,7 @@ fn every_command_has_help_with_an_example() {
         );
     }
     let help = folder.succeed("--help");
-    assert!(help.contains("SCENE") && !help.contains("compare"), "{help}");
+    assert!(help.contains("SCENE") && help.contains("compare"), "{help}");
 }
 
 #[test]

@@ -7,14 +7,13 @@ use serde_json::Value;
 use std::collections::HashMap;
 use std::fmt::Write;
 
-const CATMULL_CLARK: [&str; 11] = [
+const CATMULL_CLARK: [&str; 10] = [
     "cube",
     "cube_creases0",
     "cube_corner1",
     "chaikin0",
     "dart_edgeonly",
     "edgecorner",
-    "edgenone",
     "nonquads",
     "tent_creases0",
     "xord_boundary",

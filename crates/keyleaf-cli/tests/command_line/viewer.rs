@@ -215,7 +215,7 @@ fn viewer_counts_as_bench_does() {
     folder.succeed(&arguments);
     let bench: Value = serde_json::from_str(&folder.read("b.json")).unwrap();
     for count in ["leaves", "visible", "triangles"] {
-        let expected = bench["scenes"][0][count]["median"].as_f64();
+        let expected = bench["runs"][0][count]["p50"].as_f64();
         assert_eq!(report[count].as_f64(), expected, "{count}");
     }
 }

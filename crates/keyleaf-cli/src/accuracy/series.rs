@@ -1,5 +1,6 @@
 //! What the report varies: each series is one thing changed, at several values. A new one is a line here.
 
+use keyleaf::key::MAX_LEVEL;
 use keyleaf::surface::{BasisMethod, PatchKind, PatchSettings, Patches, Surface};
 use keyleaf::{BackFaces, Balance, Metric, Settings};
 use keyleaf_scene::scene::{GaussianShape, QasShape, QasVariant, Shape, Solver};
@@ -36,6 +37,12 @@ fn with_settings(loaded: &Loaded, change: impl Fn(&mut Settings)) -> Loaded {
         change(&mut object.settings);
     }
     changed
+}
+
+/// Another base grid. Level and grid together are at most 31.
+fn gridded(settings: &mut Settings, k: u32) {
+    settings.base_grid = k;
+    settings.max_level = settings.max_level.min(MAX_LEVEL - k);
 }
 
 /// The scene at the edges at which everything else is compared.
@@ -147,7 +154,7 @@ pub fn all(loaded: &Loaded, quick: bool) -> Vec<Series> {
     all.push(of_settings(
         "base grid, edge 8 px",
         GRIDS
-            .map(|k| (format!("4^{k}"), with(&|settings| settings.base_grid = k)))
+            .map(|k| (format!("4^{k}"), with(&|settings| gridded(settings, k))))
             .into(),
     ));
     all.push(of_settings(

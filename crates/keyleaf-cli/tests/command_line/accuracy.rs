@@ -86,3 +86,17 @@ fn what_has_no_patches_is_refused() {
         assert!(message.contains(expected), "{arguments}: {message}");
     }
 }
+
+#[test]
+fn the_report_has_every_setting_with_its_errors() {
+    let folder = Folder::new("accuracy-report");
+    folder.succeed("accuracy cube.obj --surface catmull-clark --out report.html --quick --size 80x60 --frames 1");
+    let page = folder.read("report.html");
+    assert!(page.starts_with("<!DOCTYPE html>") && page.contains("<svg") && page.contains("isolation"));
+    let csv = folder.read("report.csv");
+    for series in ["edge", "deviation", "base grid", "neighbours", "isolation"] {
+        assert!(csv.contains(series), "{series}: {csv}");
+    }
+    folder.refuse("accuracy cube.obj --out report.txt", &[".html"]);
+    folder.refuse("accuracy cube.obj", &["--out"]);
+}

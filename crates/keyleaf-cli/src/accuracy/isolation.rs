@@ -22,7 +22,7 @@ const REPEATS: usize = 5;
 const LONG_ENOUGH: Duration = Duration::from_millis(500);
 
 /// The shape with another isolation; `None` if it has none.
-fn isolated(shape: &Shape, steps: u32) -> Option<Shape> {
+pub fn isolated(shape: &Shape, steps: u32) -> Option<Shape> {
     let mut shape = shape.clone();
     match &mut shape {
         Shape::CatmullClark(shape) => shape.isolation = steps,

@@ -1,5 +1,6 @@
 //! What the report varies: each series is one thing changed, at several values. A new one is a line here.
 
+use super::isolation::isolated;
 use keyleaf::key::MAX_LEVEL;
 use keyleaf::surface::{BasisMethod, PatchKind, PatchSettings, Patches, Surface};
 use keyleaf::{BackFaces, Balance, Metric, Settings};
@@ -83,17 +84,6 @@ fn of_surfaces<T: Copy>(
 fn reshaped(object: &LoadedObject, change: impl Fn(&Shape) -> Option<Shape>) -> Option<Arc<dyn Surface>> {
     let cage = object.cage.as_ref()?;
     cage.surface_as(&change(cage.shape())?).ok()
-}
-
-fn isolated(shape: &Shape, steps: u32) -> Option<Shape> {
-    let mut shape = shape.clone();
-    match &mut shape {
-        Shape::CatmullClark(shape) => shape.isolation = steps,
-        Shape::Loop(shape) => shape.isolation = steps,
-        Shape::GaussianProduct(shape) => shape.isolation = steps,
-        _ => return None,
-    }
-    Some(shape)
 }
 
 fn solved(shape: &Shape, solver: Solver) -> Option<Shape> {

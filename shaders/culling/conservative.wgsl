@@ -3,6 +3,11 @@
 // linear in P. The cone is made on the CPU: keyleaf-surface `patches::normal_cone`.
 // requires: shared/patch.wgsl
 
+// The cone holds the normals of triangles of this level and finer ones.
+fn culled_from(face: u32) -> u32 {
+    return surface_b[surface.half_edges + HALF_EDGE_WORDS * (4u * face + 1u) + 6u];
+}
+
 fn face_is_back(face: u32, eye: vec3f, side: f32) -> bool {
     let record = surface.half_edges + HALF_EDGE_WORDS * 4u * face;
     let axis = side * bitcast<vec3f>(vec3u(surface_b[record + 4u], surface_b[record + 5u], surface_b[record + 6u]));

@@ -2,6 +2,10 @@
 // bulges towards the eye is lost while its corners face away.
 // requires: shared/patch.wgsl
 
+fn culled_from(face: u32) -> u32 {
+    return 0u;
+}
+
 fn face_is_back(face: u32, eye: vec3f, side: f32) -> bool {
     var corners: array<vec3f, 4>;
     for (var i = 0u; i < 4u; i++) {

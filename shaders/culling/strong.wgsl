@@ -3,6 +3,10 @@
 // their cross products need not point to the side of any square.
 // requires: shared/patch.wgsl
 
+fn culled_from(face: u32) -> u32 {
+    return 0u;
+}
+
 fn face_is_back(face: u32, eye: vec3f, side: f32) -> bool {
     let p = patch_of(face);
     for (var l = 0u; l < p.degree.y; l++) {

@@ -5,5 +5,6 @@
 @group(0) @binding(7) var<storage, read> faces: array<u32>;
 
 fn may_face_eye(slot: u32, ball: vec4f, side: f32) -> bool {
-    return faces[leaves[slot].face] != 0u;
+    let leaf = leaves[slot];
+    return faces[leaf.face] > (leaf.orientation_level >> 8u) + frame.base_grid;
 }

@@ -84,6 +84,23 @@ struct Tangents {
     duv: vec3f,
 }
 
+// A position as a control point next to it and the rest, which keeps its digits where it is small.
+struct PatchPoint {
+    reference: vec3f,
+    offset: vec3f,
+}
+
+// Derivatives at a position S from sums over the control points P with weights w: `rest` of (w (P - S), w), and its derivatives but for
+// the factors of the degrees. The first three of `rest` should be zero, but S is rounded; what is left of them times the derivative of
+// the weight is taken off.
+fn tangents_of_sums(p: Patch, rest: vec4f, du: vec4f, dv: vec4f, duv: vec3f) -> Tangents {
+    let per_weight = select(0.0, 1.0 / rest.w, rest.w > 0.0);
+    let off = rest.xyz * per_weight;
+    let factor = vec2f(p.degree) * per_weight;
+    return Tangents((du.xyz - du.w * off) * factor.x, (dv.xyz - dv.w * off) * factor.y,
+        duv * (f32(p.degree.x * p.degree.y) * per_weight));
+}
+
 fn surface_point(face: u32, at: FaceCoord) -> vec3f {
     let site = patch_site(face, at);
     let p = patch_of(site.face);

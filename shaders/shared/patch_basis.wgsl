@@ -9,12 +9,6 @@ struct Basis {
     slope: array<f32, 8>,
 }
 
-// A point as a control point next to it and the rest, which keeps its digits where it is small.
-struct PatchPoint {
-    reference: vec3f,
-    offset: vec3f,
-}
-
 fn patch_position(p: Patch, at: PatchCoord, u: ptr<function, Basis>, v: ptr<function, Basis>) -> PatchPoint {
     let nearest = vec2u(at.f * vec2f(p.degree) + 0.5);
     let reference = surface_a[p.base + nearest.x + nearest.y * p.stride].xyz;
@@ -31,13 +25,11 @@ fn patch_position(p: Patch, at: PatchCoord, u: ptr<function, Basis>, v: ptr<func
     return PatchPoint(reference, select(vec3f(0.0), sum.xyz / sum.w, sum.w > 0.0));
 }
 
-// Derivatives at a position S: those of the weighted sum of w (P - S), over the weight. That sum should be zero, but S is rounded; what is
-// left of it times the derivative of the weight is taken off.
 fn tangents_at(p: Patch, position: PatchPoint, u: ptr<function, Basis>, v: ptr<function, Basis>) -> Tangents {
-    var t: Tangents;
-    var rest = vec3f(0.0);
-    var weight = 0.0;
-    var weight_slopes = vec2f(0.0);
+    var rest = vec4f(0.0);
+    var du = vec4f(0.0);
+    var dv = vec4f(0.0);
+    var duv = vec3f(0.0);
     var value_before = vec4f(0.0);
     var slope_before = vec3f(0.0);
     for (var l = 0u; l <= p.degree.y; l++) {
@@ -53,24 +45,16 @@ fn tangents_at(p: Patch, position: PatchPoint, u: ptr<function, Basis>, v: ptr<f
             }
             before = arm;
         }
-        rest += (*v).value[l] * value.xyz;
-        weight += (*v).value[l] * value.w;
-        t.du += (*v).value[l] * slope.xyz;
-        weight_slopes.x += (*v).value[l] * slope.w;
+        rest += (*v).value[l] * value;
+        du += (*v).value[l] * slope;
         if l > 0u {
-            t.dv += (*v).slope[l - 1u] * (value - value_before).xyz;
-            weight_slopes.y += (*v).slope[l - 1u] * (value - value_before).w;
-            t.duv += (*v).slope[l - 1u] * (slope.xyz - slope_before);
+            dv += (*v).slope[l - 1u] * (value - value_before);
+            duv += (*v).slope[l - 1u] * (slope.xyz - slope_before);
         }
         value_before = value;
         slope_before = slope.xyz;
     }
-    let per_weight = select(0.0, 1.0 / weight, weight > 0.0);
-    rest *= per_weight;
-    t.du = (t.du - weight_slopes.x * rest) * (f32(p.degree.x) * per_weight);
-    t.dv = (t.dv - weight_slopes.y * rest) * (f32(p.degree.y) * per_weight);
-    t.duv *= f32(p.degree.x * p.degree.y) * per_weight;
-    return t;
+    return tangents_of_sums(p, rest, du, dv, duv);
 }
 
 fn patch_point(p: Patch, at: PatchCoord) -> vec3f {

@@ -108,6 +108,10 @@ pub const FILES: &[(&str, &str)] = &[
         include_str!("../shared/basis_bernstein.wgsl"),
     ),
     (
+        "shared/basis_bernstein_cubic.wgsl",
+        include_str!("../shared/basis_bernstein_cubic.wgsl"),
+    ),
+    (
         "shared/basis_de_boor.wgsl",
         include_str!("../shared/basis_de_boor.wgsl"),
     ),
@@ -120,6 +124,10 @@ pub const FILES: &[(&str, &str)] = &[
     (
         "shared/basis_triangular.wgsl",
         include_str!("../shared/basis_triangular.wgsl"),
+    ),
+    (
+        "shared/basis_triangular_cubic.wgsl",
+        include_str!("../shared/basis_triangular_cubic.wgsl"),
     ),
     ("shared/bicubic.wgsl", include_str!("../shared/bicubic.wgsl")),
     ("shared/catmull_rom.wgsl", include_str!("../shared/catmull_rom.wgsl")),
@@ -179,6 +187,7 @@ pub const FILES: &[(&str, &str)] = &[
     ("shared/noise3.wgsl", include_str!("../shared/noise3.wgsl")),
     ("shared/patch.wgsl", include_str!("../shared/patch.wgsl")),
     ("shared/patch_basis.wgsl", include_str!("../shared/patch_basis.wgsl")),
+    ("shared/patch_cubic.wgsl", include_str!("../shared/patch_cubic.wgsl")),
     ("shared/patch_power.wgsl", include_str!("../shared/patch_power.wgsl")),
     ("shared/place.wgsl", include_str!("../shared/place.wgsl")),
     ("shared/polygon.wgsl", include_str!("../shared/polygon.wgsl")),
@@ -221,6 +230,10 @@ pub const FILES: &[(&str, &str)] = &[
     ("shared/wire.wgsl", include_str!("../shared/wire.wgsl")),
     ("surfaces/bezier.wgsl", include_str!("../surfaces/bezier.wgsl")),
     (
+        "surfaces/bezier_cubic.wgsl",
+        include_str!("../surfaces/bezier_cubic.wgsl"),
+    ),
+    (
         "surfaces/catmull_clark.wgsl",
         include_str!("../surfaces/catmull_clark.wgsl"),
     ),
@@ -259,6 +272,10 @@ pub const FILES: &[(&str, &str)] = &[
     ("surfaces/loop.wgsl", include_str!("../surfaces/loop.wgsl")),
     ("surfaces/mesh.wgsl", include_str!("../surfaces/mesh.wgsl")),
     ("surfaces/nurbs.wgsl", include_str!("../surfaces/nurbs.wgsl")),
+    (
+        "surfaces/nurbs_cubic.wgsl",
+        include_str!("../surfaces/nurbs_cubic.wgsl"),
+    ),
     (
         "surfaces/nurbs_de_boor.wgsl",
         include_str!("../surfaces/nurbs_de_boor.wgsl"),

@@ -8,7 +8,7 @@ use anyhow::ensure;
 use clap::Args;
 use glam::UVec2;
 use keyleaf::headless::Headless;
-use keyleaf::{Balance, BaseGrid, KeyleafError, View};
+use keyleaf::{BackFaces, Balance, BaseGrid, KeyleafError, View};
 use keyleaf_stage::check::{Checker, Finding, FindingKind, Findings, PictureCheck, Sight};
 use keyleaf_stage::{Canvas, Show, Stage, StageLook, view_of};
 use serde_json::json;
@@ -180,6 +180,7 @@ fn picture(
         };
         let snapshot = quadtree.read_back(&gpu.device, &gpu.queue)?;
         let sight = Sight::new(view, quadtree.world_from_object(), quadtree.origin());
+        let is_two_sided = quadtree.settings().back_faces == BackFaces::Drawn;
         let grid = BaseGrid::new(quadtree.settings().base_grid);
         let indices = Arc::from(grid.indices);
         let emitted = inspector.emit(&gpu.device, &gpu.queue, quadtree, &snapshot.visible)?;
@@ -188,7 +189,8 @@ fn picture(
             .iter()
             .zip(emitted.positions.chunks(grid.vertices.len()))
         {
-            check.add(snapshot.leaves[*slot as usize].key, vertices, &indices, &sight);
+            let key = snapshot.leaves[*slot as usize].key;
+            check.add(key, vertices, &indices, &sight, is_two_sided);
         }
     }
     let mut findings = Findings::default();

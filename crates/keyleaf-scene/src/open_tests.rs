@@ -222,7 +222,7 @@ fn patches_open_directly() {
     let folder = folder("patches", "");
     std::fs::write(folder.join("sheet.bpt"), PATCHES).unwrap();
     let opened = open_in(&folder, "sheet.bpt").unwrap();
-    assert_eq!(opened.surfaces[0].surface.shader(), "surfaces/bezier.wgsl");
+    assert_eq!(opened.surfaces[0].surface.shader(), "surfaces/bezier_cubic.wgsl");
     assert_eq!(opened.surfaces[0].files.len(), 1);
     assert_eq!(opened.surfaces[0].world_from_object, DMat4::IDENTITY);
     let z_up = OpenOptions {
@@ -307,7 +307,7 @@ fn scene_with_patches_is_loaded() {
         [
             "surfaces/nurbs_extraction.wgsl",
             "surfaces/nurbs_stair.wgsl",
-            "surfaces/bezier.wgsl"
+            "surfaces/bezier_cubic.wgsl"
         ]
     );
     let said = |part: &str| {

@@ -15,7 +15,7 @@
 //! | [`HeightField`] | `surfaces/height_field.wgsl`, `…_bilinear.wgsl` | a height map over a rectangle |
 //! | [`Subdivision`] | `surfaces/catmull_clark.wgsl`, `surfaces/loop.wgsl` | Catmull-Clark and Loop subdivision surfaces |
 //! | [`GaussianProduct`] | `surfaces/gaussian_catmull_clark.wgsl`, `surfaces/gaussian_loop.wgsl` | subdivision surfaces of Gaussians |
-//! | [`Patches`] | `surfaces/bezier.wgsl`, `surfaces/nurbs*.wgsl` | Bézier and NURBS surfaces, joined where their boundaries meet |
+//! | [`Patches`] | `surfaces/bezier*.wgsl`, `surfaces/nurbs*.wgsl` | Bézier and NURBS surfaces, joined where their boundaries meet |
 //! | [`TrianglePatches`] | `surfaces/qas.wgsl`, `surfaces/pn.wgsl` | QAS and PN triangles: a small patch a triangle |
 //! | [`Terrain`] | `surfaces/terrain.wgsl` | a procedural terrain over a fixed square |
 //!

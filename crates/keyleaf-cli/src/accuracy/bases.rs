@@ -18,8 +18,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 const DEGREES: std::ops::RangeInclusive<u32> = 2..=5;
-const METHODS: [(BasisMethod, &str); 5] = [
+const METHODS: [(BasisMethod, &str); 6] = [
     (BasisMethod::Triangular, "triangular table (A2.2)"),
+    (BasisMethod::Loops, "the same by loops"),
     (BasisMethod::Stair, "stair strategy"),
     (BasisMethod::DeBoor, "de Boor's recursion"),
     (BasisMethod::Extraction, "Bézier extraction"),

@@ -36,7 +36,7 @@ const METRICS: [Refined; 3] = [
     Refined {
         name: "edge",
         metric: |pixels| Metric::Edge { pixels },
-        range: [1.0, 64.0],
+        range: [1.0, 128.0],
     },
 ];
 
@@ -59,7 +59,7 @@ impl Curve {
         let (metric, [fine, coarse]) = (refined.metric, refined.range);
         let start = with_settings(scene, |settings| {
             settings.metric = metric(coarse);
-            settings.base_grid = 1;
+            settings.base_grid = 0; // a triangle a leaf
             settings.target_leaves = 0;
             settings.capacity = settings.capacity.max(1 << 20);
         });
@@ -79,8 +79,14 @@ impl Curve {
         Ok(Self(points))
     }
 
-    /// Triangles for a PSNR, between two points of the curve; none beyond its ends.
+    /// Triangles for a PSNR, between two points of the curve; those of its coarse end where even that is better, none where the PSNR is
+    /// beyond its fine end.
     fn triangles(&self, decibels: f64) -> Option<f64> {
+        if let Some(&[coarsest, triangles]) = self.0.first()
+            && decibels < coarsest
+        {
+            return Some(triangles);
+        }
         let between = |pair: &[[f64; 2]]| -> Option<f64> {
             let ([a, few], [b, many]) = (pair[0], pair[1]);
             let part = (decibels - a) / (b - a);

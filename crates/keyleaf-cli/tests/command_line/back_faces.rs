@@ -1,6 +1,7 @@
 //! What is left out of the picture because it is seen from behind.
 
 use crate::Folder;
+use crate::oracles::shared;
 use serde_json::Value;
 
 /// A picture and the number of visible leaves.
@@ -41,6 +42,32 @@ fn conservative_culling_of_faces_changes_no_pixel_and_draws_less() {
         assert_eq!(plan("conservative")["approximate"], false);
         let has_cull = |how: &str| plan(how).to_string().contains("cull_faces");
         assert_eq!(["drawn", "hidden", "light"].map(has_cull), [false, false, true]);
+    }
+}
+
+/// Sheets, of which nothing need be left out, and models of others.
+#[test]
+fn conservative_culling_of_faces_changes_no_pixel_of_other_models() {
+    let folder = Folder::new("back-faces-of-others");
+    let scenes = ["crease", "quintic"].map(|name| format!("{}/../../scenes/{name}.ron", env!("CARGO_MANIFEST_DIR")));
+    let models = [
+        "teaset/teapot",
+        "teaset/teacup",
+        "teaset/teaspoon",
+        "nurbs/v2_Speeder.obj",
+        "nurbs/v2_UntrimmedSurfaces.obj",
+        "nurbs/v2_HumanHead1.obj",
+        "nurbs/v5_teapot.obj",
+    ];
+    let models = models.iter().filter_map(|name| shared(&format!("data/{name}")));
+    for model in scenes.into_iter().chain(models.map(|path| path.display().to_string())) {
+        let with = |how: &str| {
+            let options = format!("--pixels 16 --ignore-trims --back-faces {how}");
+            picture(&folder, &model, &options)
+        };
+        let ((hidden, all), (conservative, kept)) = (with("hidden"), with("conservative"));
+        println!("{model}: {all} leaves, conservative {kept}");
+        assert_eq!(hidden, conservative, "{model}");
     }
 }
 

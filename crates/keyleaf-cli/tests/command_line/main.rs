@@ -9,6 +9,7 @@ mod models;
 mod oracles;
 mod pictures;
 mod reports;
+mod scenes;
 mod subdivision;
 mod viewer;
 

@@ -21,16 +21,33 @@ fn triangles(text: &str) -> (Vec<&str>, Vec<[usize; 3]>) {
 fn exports_of_closed_models_are_watertight_in_every_bit() {
     let folder = Folder::new("watertight");
     // Poles, seams and collapsed edges included.
-    let patches = ["goblet", "torus", "pot"].map(|name| {
+    let scenes = [
+        "goblet",
+        "torus",
+        "pot",
+        "cube",
+        "fox",
+        "displaced",
+        "valences",
+        "creases",
+        "qas",
+        "gaussian",
+        "figure",
+    ];
+    let scenes = scenes.map(|name| {
         let scenes = concat!(env!("CARGO_MANIFEST_DIR"), "/../../scenes");
-        format!("{scenes}/{name}.ron --no-cull --pixels 40 --size 320x240 --quiet")
+        format!("{scenes}/{name}.ron --no-cull --pixels 40 --size 160x120 --quiet")
     });
+    let moved = scenes.last().map(|scene| format!("{scene} --time 0.7"));
     let meshes = [
         "cube.obj --no-cull --eye 3,2,1.5 --look-at 0,0,0 --size 200x150",
         "two.ron --no-cull --size 120x90",
         "cube.obj --uniform 2",
     ];
-    for arguments in meshes.into_iter().chain(patches.iter().map(String::as_str)) {
+    for arguments in meshes
+        .into_iter()
+        .chain(scenes.iter().chain(&moved).map(String::as_str))
+    {
         folder.succeed(&format!("export {arguments} -o out.obj"));
         let text = folder.read("out.obj");
         let (vertices, triangles) = triangles(&text);

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 /// 2^-24.
 pub const EPSILON: f64 = 1.0 / 16_777_216.0;
 
-fn shared(name: &str) -> Option<PathBuf> {
+pub fn shared(name: &str) -> Option<PathBuf> {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared").join(name);
     if file.exists() {
         return Some(file);

@@ -2,6 +2,7 @@
 
 use super::Folder;
 use super::display::Display;
+use super::scenes::shipped;
 use glam::DVec3;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -29,30 +30,15 @@ fn distance(report: &Value) -> f64 {
     vector(&report["eye"]).distance(vector(&report["pivot"]))
 }
 
-fn scenes() -> Vec<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../../scenes")
-        .canonicalize()
-        .unwrap();
-    let is_scene = |path: &PathBuf| path.extension().is_some_and(|e| e == "ron");
-    let mut all: Vec<PathBuf> = std::fs::read_dir(folder)
-        .unwrap()
-        .map(|e| e.unwrap().path())
-        .filter(is_scene)
-        .collect();
-    all.sort();
-    all
-}
-
 #[test]
 fn viewer_opens_shipped_scenes_one_after_the_other() {
-    open_all(scenes().into_iter().filter(|scene| !is_of_patches(scene)).collect());
+    open_all(shipped().into_iter().filter(|scene| !is_of_patches(scene)).collect());
 }
 
 #[test]
 #[ignore = "a software device takes some ten seconds to compile the shaders of each"]
 fn viewer_opens_shipped_scenes_of_patches_one_after_the_other() {
-    open_all(scenes().into_iter().filter(|scene| is_of_patches(scene)).collect());
+    open_all(shipped().into_iter().filter(|scene| is_of_patches(scene)).collect());
 }
 
 fn is_of_patches(scene: &Path) -> bool {

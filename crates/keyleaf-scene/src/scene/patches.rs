@@ -83,9 +83,11 @@ pub struct BezierSource {
 /// How the basis functions of NURBS are computed. All give the same surface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Basis {
-    /// The triangular scheme (Piegl & Tiller A2.2).
+    /// The triangular scheme (Piegl & Tiller A2.2), its loops written out where no degree is above 3.
     #[default]
     Triangular,
+    /// The triangular scheme by loops, which degrees above 3 take anyway.
+    Loops,
     /// The stair strategy (Concheiro).
     Stair,
     /// De Boor's algorithm.
@@ -101,6 +103,7 @@ impl From<Basis> for BasisMethod {
     fn from(basis: Basis) -> Self {
         match basis {
             Basis::Triangular => Self::Triangular,
+            Basis::Loops => Self::Loops,
             Basis::Stair => Self::Stair,
             Basis::DeBoor => Self::DeBoor,
             Basis::Extraction => Self::Extraction,

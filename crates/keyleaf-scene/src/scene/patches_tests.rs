@@ -120,7 +120,7 @@ fn values_out_of_range_tell_line_and_field() {
     check(
         "basis: Stair",
         "basis: Stairs",
-        &["unknown choice `Stairs`, expected one of `Triangular`, `Stair`, `DeBoor`"],
+        &["unknown choice `Stairs`, expected one of `Triangular`, `Loops`, `Stair`"],
     );
     check(
         "ignore_trims",

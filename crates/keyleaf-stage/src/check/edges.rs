@@ -8,7 +8,7 @@ use super::{FindingKind, Findings, Sight, Welder, grid_point};
 use keyleaf::inspect::Emitted;
 use keyleaf::key::{Key, Place, RootPoint, Topology};
 use keyleaf::read_back::Snapshot;
-use keyleaf::{BaseGrid, Settings};
+use keyleaf::{BackFaces, BaseGrid, Settings};
 use rayon::slice::ParallelSliceMut;
 
 /// Slots whose vertices are asked for at once.
@@ -94,7 +94,12 @@ pub(super) fn check<E>(
                 positions,
                 normals,
             };
-            check_vertices(&drawn, snapshot, leaves, sight, findings);
+            check_vertices(&drawn, snapshot, findings);
+            if let Some(sight) = sight.filter(|_| !leaves.visible[slot as usize])
+                && let Some(detail) = wrongly_culled(&drawn, grid, settings.back_faces, sight)
+            {
+                findings.add(FindingKind::Culled, [snapshot.leaves[slot as usize].key], || detail);
+            }
             matcher.add(&drawn, findings);
         }
     }
@@ -113,14 +118,8 @@ fn rim(grid: &BaseGrid, k: u32) -> Vec<([u32; 2], usize)> {
     corners.filter_map(|at| Some((at, index(at)?))).collect()
 }
 
-/// Whether all vertices of a leaf are finite, and whether it is drawn if one of them is in view.
-fn check_vertices(
-    drawn: &Drawn<'_>,
-    snapshot: &Snapshot,
-    leaves: &Leaves,
-    sight: Option<&Sight>,
-    findings: &mut Findings,
-) {
+/// Whether all vertices of a leaf are finite.
+fn check_vertices(drawn: &Drawn<'_>, snapshot: &Snapshot, findings: &mut Findings) {
     let key = [snapshot.leaves[drawn.slot as usize].key];
     let finite = |v: &[f32; 3]| v.iter().all(|c| c.is_finite());
     let unit = |n: &[f32; 3]| (n.iter().map(|c| c * c).sum::<f32>().sqrt() - 1.0).abs() <= UNIT_TOLERANCE;
@@ -134,17 +133,32 @@ fn check_vertices(
             format!("the normal of vertex {i} is {:?}", drawn.normals[i])
         });
     }
-    let Some(sight) = sight.filter(|_| !leaves.visible[drawn.slot as usize]) else {
-        return;
+}
+
+/// What of a leaf that is not drawn should be seen: a vertex, or a vertex of a triangle that faces the eye where others are left out.
+/// Approximate ways to leave out faces may lose any.
+fn wrongly_culled(drawn: &Drawn<'_>, grid: &BaseGrid, back_faces: BackFaces, sight: &Sight) -> Option<String> {
+    let in_view = |i: usize| sight.surely_sees(drawn.positions[i]);
+    let seen = match back_faces {
+        BackFaces::Drawn | BackFaces::Hidden => (0..drawn.positions.len()).find(|&i| in_view(i)),
+        BackFaces::Leaves | BackFaces::Conservative => {
+            let triangles = grid
+                .indices
+                .as_chunks::<3>()
+                .0
+                .iter()
+                .map(|corners| corners.map(usize::from));
+            let mut facing = triangles.filter(|corners| sight.surely_faces(corners.map(|i| drawn.positions[i])));
+            facing.find_map(|corners| corners.into_iter().find(|&i| in_view(i)))
+        }
+        BackFaces::Light | BackFaces::Strong => None,
     };
-    if let Some(i) = drawn.positions.iter().position(|p| sight.surely_sees(*p)) {
-        findings.add(FindingKind::Culled, key, || {
-            format!(
-                "vertex {i} is in view, {} from the eye",
-                sight.from_eye(drawn.positions[i])
-            )
-        });
-    }
+    seen.map(|i| {
+        format!(
+            "vertex {i} is in view, {} from the eye",
+            sight.from_eye(drawn.positions[i])
+        )
+    })
 }
 
 impl Matcher<'_> {

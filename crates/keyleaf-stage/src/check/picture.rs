@@ -20,6 +20,8 @@ const OFF_CENTRE: f64 = 0.75;
 struct Patch {
     key: Key,
     vertices: Vec<DVec3>,
+    /// Whether triangles show from behind.
+    is_two_sided: bool,
     indices: Arc<[u16]>,
     centre: DVec3,
     radius: f64,
@@ -42,8 +44,9 @@ impl PictureCheck {
         }
     }
 
-    /// Adds a drawn leaf: its vertices, and three indices a triangle, which leaves share.
-    pub fn add(&mut self, key: Key, positions: &[[f32; 3]], indices: &Arc<[u16]>, sight: &Sight) {
+    /// Adds a drawn leaf: its vertices, and three indices a triangle, which leaves share; `is_two_sided` says whether triangles show
+    /// from behind.
+    pub fn add(&mut self, key: Key, positions: &[[f32; 3]], indices: &Arc<[u16]>, sight: &Sight, is_two_sided: bool) {
         let vertices: Vec<DVec3> = positions.iter().map(|p| sight.from_eye(*p)).collect();
         let centre = vertices.iter().sum::<DVec3>() / vertices.len().max(1) as f64;
         let radius = vertices.iter().map(|v| v.distance(centre)).fold(0.0, f64::max);
@@ -56,6 +59,7 @@ impl PictureCheck {
         self.patches.push(Patch {
             key,
             vertices,
+            is_two_sided,
             indices: Arc::clone(indices),
             centre,
             radius,
@@ -165,7 +169,9 @@ impl PictureCheck {
             for triangle in patch.triangles() {
                 for (hit, (start, direction)) in hits.iter_mut().zip(rays) {
                     let near = self.near() + 1e-6 * self.near().abs() + self.rounding;
-                    if let Some(depth) = intersect(start, direction, triangle).filter(|d| *d > near && *d < far)
+                    if let Some((depth, is_front)) = intersect(start, direction, triangle)
+                        && (is_front || patch.is_two_sided)
+                        && (near..far).contains(&depth)
                         && hit.is_none_or(|(before, _)| depth < before)
                     {
                         *hit = Some((depth, patch.key));
@@ -197,8 +203,8 @@ impl Patch {
     }
 }
 
-/// Where a ray meets a triangle, in lengths of its direction (Möller and Trumbore 1997); two-sided.
-fn intersect(start: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f64> {
+/// Where a ray meets a triangle, in lengths of its direction, and whether from the front (Möller and Trumbore 1997).
+fn intersect(start: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<(f64, bool)> {
     let (ab, ac) = (b - a, c - a);
     let p = direction.cross(ac);
     let determinant = ab.dot(p);
@@ -207,7 +213,7 @@ fn intersect(start: DVec3, direction: DVec3, [a, b, c]: [DVec3; 3]) -> Option<f6
     let q = to_start.cross(ab);
     let v = direction.dot(q) / determinant;
     // NaN, of a degenerate triangle, fails all of these.
-    (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then_some(ac.dot(q) / determinant)
+    (u >= 0.0 && v >= 0.0 && u + v <= 1.0).then_some((ac.dot(q) / determinant, determinant > 0.0))
 }
 
 /// Ericson, *Real-Time Collision Detection*, 5.1.5.

@@ -1,4 +1,4 @@
-//! Which vertices a view surely sees.
+//! Which vertices and triangles a view surely sees.
 
 use glam::{DAffine3, DQuat, DVec3};
 use keyleaf::{Projection, View};
@@ -15,6 +15,9 @@ pub struct Sight {
 
 /// How far inside the view volume a vertex must lie, as a part of its half width: more than single precision can get wrong.
 const MARGIN: f64 = 0.01;
+
+/// Sine of the angle between a triangle and a ray above which single precision does not turn the triangle round.
+const GRAZING: f64 = 1e-3;
 
 impl Sight {
     /// What `view` sees of vertices relative to `origin` in object space.
@@ -43,6 +46,31 @@ impl Sight {
             .map(|axis| axis.length_squared())
             .sum::<f64>()
             .sqrt()
+    }
+
+    /// Whether a triangle, counter-clockwise seen from its front, shows its front to the eye by more than rounding. Its corners are not
+    /// asked to be in view.
+    pub fn surely_faces(&self, triangle: [[f32; 3]; 3]) -> bool {
+        let [a, b, c] = triangle.map(|vertex| self.from_eye(vertex));
+        let normal = (b - a).cross(c - a);
+        let ray = match self.projection {
+            Projection::Perspective { .. } => a,
+            Projection::Orthographic { .. } => self.view_from_world.inverse() * DVec3::NEG_Z,
+        };
+        // Corners are rounded: a triangle must be larger than that to have a side.
+        let rounding = f64::from(f32::EPSILON) * self.largest(triangle);
+        let is_solid = normal.length() > 64.0 * rounding * ((b - a).length() + (c - a).length());
+        is_solid && -normal.dot(ray) > GRAZING * normal.length() * ray.length()
+    }
+
+    /// The largest coordinate, of corners before they are placed and after.
+    fn largest(&self, triangle: [[f32; 3]; 3]) -> f64 {
+        let emitted = triangle
+            .into_iter()
+            .flatten()
+            .fold(0.0, |most: f64, c| most.max(f64::from(c.abs())));
+        let placed = triangle.iter().map(|&vertex| self.from_eye(vertex).abs().max_element());
+        placed.fold(emitted * self.stretch(), f64::max)
     }
 
     /// Whether a vertex lies inside the view volume by more than rounding.

@@ -2,6 +2,7 @@
 
 use super::*;
 use glam::{DVec3, UVec2};
+use keyleaf::BackFaces;
 use keyleaf::key::neighbour::across_outer_leg;
 use keyleaf::key::{Forest, Key, Place};
 use keyleaf::layout::{Control, Leaf, NO_ENTRY, state, table_entries};
@@ -303,6 +304,46 @@ fn leaves_in_view_that_are_culled_are_found() {
     assert_eq!(at([50.0, 0.0, 0.0]), []);
 }
 
+#[test]
+fn leaves_seen_from_behind_may_be_culled_where_that_is_wanted() {
+    let topology = mesh();
+    let mut snapshot = snapshot(&topology, &refined(&topology, 10));
+    snapshot.visible.clear();
+    let from = |z: f64, back_faces: BackFaces| {
+        let settings = Settings {
+            cull: true,
+            back_faces,
+            ..settings()
+        };
+        let view = View::look_at(DVec3::new(0.0, 0.0, z), DVec3::ZERO, 1.0, 0.1, UVec2::new(64, 64));
+        let sight = Sight::new(&view, &glam::DAffine3::IDENTITY, DVec3::ZERO);
+        // All leaves lie in the plane z = 0, their fronts to +z.
+        let emit = |slots: &[u32]| {
+            let corners = BaseGrid::new(2).vertices;
+            let corner = |v: &u32| [(v & 0xffff) as f32 / 8.0, (v >> 16) as f32 / 8.0, 0.0];
+            let leaf: Vec<[f32; 3]> = corners.iter().map(corner).collect();
+            Ok::<_, Infallible>(Emitted {
+                positions: leaf.repeat(slots.len()),
+                normals: vec![[0.0, 0.0, 1.0]; leaf.len() * slots.len()],
+            })
+        };
+        let found = frame(&topology, &snapshot, &settings, Some(&sight), emit).unwrap();
+        found.counts.contains_key(&FindingKind::Culled)
+    };
+    for (back_faces, front, back) in [
+        (BackFaces::Drawn, true, true),
+        (BackFaces::Leaves, true, false),
+        (BackFaces::Conservative, true, false),
+        (BackFaces::Strong, false, false),
+    ] {
+        assert_eq!(
+            (from(9.0, back_faces), from(-9.0, back_faces)),
+            (front, back),
+            "{back_faces:?}"
+        );
+    }
+}
+
 /// Two triangles at depths 4 and 2, the second over the left half of the picture.
 fn two_triangles(view: &View) -> PictureCheck {
     let sight = Sight::new(view, &glam::DAffine3::IDENTITY, DVec3::ZERO);
@@ -313,14 +354,35 @@ fn two_triangles(view: &View) -> PictureCheck {
         &[[-50.0, -50.0, -4.0], [50.0, -50.0, -4.0], [0.0, 90.0, -4.0]],
         &indices,
         &sight,
+        true,
     );
     check.add(
         Key::of_root(0, 1),
         &[[-99.0, -99.0, -2.0], [0.0, -99.0, -2.0], [0.0, 99.0, -2.0]],
         &indices,
         &sight,
+        true,
     );
     check
+}
+
+#[test]
+fn triangles_seen_from_behind_hide_nothing_where_they_are_not_drawn() {
+    let size = UVec2::new(16, 16);
+    let view = View::look_at(DVec3::ZERO, DVec3::NEG_Z, 1.0, 0.1, size);
+    let sight = Sight::new(&view, &glam::DAffine3::IDENTITY, DVec3::ZERO);
+    let findings_of_nothing = |corners: [[f32; 3]; 3], is_two_sided: bool| {
+        let mut check = PictureCheck::new(&view);
+        let indices = std::sync::Arc::from([0, 1, 2]);
+        check.add(Key::of_root(0, 0), &corners, &indices, &sight, is_two_sided);
+        let mut findings = Findings::default();
+        check.check(size, &[[0.0; 4]; 256], 100, &mut findings);
+        findings.total()
+    };
+    let front = [[-50.0, -50.0, -4.0], [50.0, -50.0, -4.0], [0.0, 90.0, -4.0]];
+    let back = [front[0], front[2], front[1]];
+    assert!(findings_of_nothing(front, false) > 50 && findings_of_nothing(back, true) > 50);
+    assert_eq!(findings_of_nothing(back, false), 0);
 }
 
 #[test]

@@ -9,9 +9,11 @@ use std::ops::{Add, Mul};
 /// How patches are evaluated: by which basis functions, or without. All give the same surface; they differ in speed and rounding.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum BasisMethod {
-    /// The triangular table (Piegl & Tiller A2.2).
+    /// The triangular table (Piegl & Tiller A2.2), its loops written out where no degree is above 3.
     #[default]
     Triangular,
+    /// The triangular table by loops, which degrees above 3 take anyway.
+    Loops,
     /// Sums of products along staircases (Concheiro 6.13 to 6.16, repaired).
     Stair,
     /// The recursion of Cox and de Boor.
@@ -29,7 +31,7 @@ pub fn values(method: BasisMethod, degree: usize, span: &Span, at: Fraction) -> 
         std::array::from_fn(|r| if r <= degree { function(r, degree - r) } else { 0.0 })
     };
     match method {
-        BasisMethod::Triangular | BasisMethod::Power => triangular(degree, span, at),
+        BasisMethod::Triangular | BasisMethod::Loops | BasisMethod::Power => triangular(degree, span, at),
         BasisMethod::Stair if degree <= 3 => each(&|m, k| staircases(m, k, span, at)),
         BasisMethod::Stair => each(&|m, k| all_paths(Path::START, [m, k], span, at)),
         BasisMethod::DeBoor => each(&|_, k| de_boor(k, degree, span, at)),

@@ -1,4 +1,4 @@
-//! Bézier and NURBS surfaces. Twin of `shaders/surfaces/bezier.wgsl` and `nurbs*.wgsl`.
+//! Bézier and NURBS surfaces. Twin of `shaders/surfaces/bezier*.wgsl` and `nurbs*.wgsl`.
 //!
 //! # Theory
 //!
@@ -349,9 +349,15 @@ impl Surface for Patches {
     }
 
     fn shader(&self) -> &'static str {
+        let is_cubic = self
+            .surfaces
+            .iter()
+            .all(|surface| surface.degree().iter().all(|&degree| degree <= 3));
         match self.kind {
+            PatchKind::Bezier if is_cubic => "surfaces/bezier_cubic.wgsl",
             PatchKind::Bezier => "surfaces/bezier.wgsl",
-            PatchKind::Nurbs(BasisMethod::Triangular) => "surfaces/nurbs.wgsl",
+            PatchKind::Nurbs(BasisMethod::Triangular) if is_cubic => "surfaces/nurbs_cubic.wgsl",
+            PatchKind::Nurbs(BasisMethod::Triangular | BasisMethod::Loops) => "surfaces/nurbs.wgsl",
             PatchKind::Nurbs(BasisMethod::Stair) => "surfaces/nurbs_stair.wgsl",
             PatchKind::Nurbs(BasisMethod::DeBoor) => "surfaces/nurbs_de_boor.wgsl",
             PatchKind::Nurbs(BasisMethod::Extraction) => "surfaces/nurbs_extraction.wgsl",

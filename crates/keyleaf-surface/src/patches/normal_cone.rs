@@ -1,4 +1,9 @@
-//! A cone of all normals that a KSQuad can have, for back-patch culling that loses nothing.
+//! A cone of all normals that a KSQuad and its triangles can have, for back-patch culling that loses nothing.
+//!
+//! The edge of a triangle along u is a mean of S_u times its length, and a right triangle with legs along u and v has a normal that is a
+//! mean of S_u times a mean of S_v, as the surface has. With the hypotenuse along u and U', U" the means of S_u over its halves, the
+//! normal of a triangle with its apex above the middle is that of U × V − U' × U" / 2: what the hypotenuse bends is taken as an error.
+//! All means are over the part of the KSQuad that holds the triangle, so that the cone holds for triangles no larger than a part.
 
 use super::bezier_net::BezierNet;
 use super::evaluation::KsQuad;
@@ -22,6 +27,8 @@ pub struct NormalCone {
     pub cosine: f64,
     /// Sine of the angle.
     pub sine: f64,
+    /// Of triangles with hypotenuses of at most one over two to this of the edge of the KSQuad.
+    pub depth: u32,
 }
 
 /// What bounds du × dv over a part, up to a positive factor: means of these vectors, but for one no longer than `error`.
@@ -36,7 +43,12 @@ impl Normals {
         let [(us, u_error), (vs, v_error)] = part.tangents();
         let longest = |vectors: &[DVec3]| vectors.iter().map(|v| v.length()).fold(0.0, f64::max);
         let (u_length, v_length) = (longest(&us), longest(&vs));
-        let error = u_length * v_error + v_length * u_error + u_error * v_error;
+        // Between the means over both halves of a hypotenuse S_u changes by no more than half of S_uu.
+        let bounds = part.bounds(1.0);
+        let [uu, _, vv] = bounds.second;
+        let [_, greatest] = part.weights();
+        let of_triangles = (bounds.first[0] * uu).max(bounds.first[1] * vv) / 4.0 * greatest * greatest;
+        let error = u_length * v_error + v_length * u_error + u_error * v_error + of_triangles;
         // What is parallel adds nothing, but may shorten a mean: that matters where there is an error.
         let counts = |n: &DVec3| error > 0.0 || n.length() > PARALLEL * u_length * v_length;
         let cross = |u: &DVec3| vs.iter().map(|v| u.cross(*v)).collect::<Vec<_>>();
@@ -49,7 +61,9 @@ impl Normals {
     /// The greatest angle between a normal and the axis; none if it may be a right angle or more.
     fn angle_from(&self, axis: DVec3) -> Option<f64> {
         let turn = if self.error > 0.0 {
-            let along = |n: &DVec3| n.dot(axis);
+            // A mean is at least as long as what all have along their own axis.
+            let own = self.crosses.iter().sum::<DVec3>().try_normalize()?;
+            let along = |n: &DVec3| n.dot(own);
             let least = self.crosses.iter().map(along).fold(f64::INFINITY, f64::min);
             if least <= self.error {
                 return None;
@@ -86,6 +100,11 @@ impl NormalCone {
         let angles: Option<Vec<f64>> = parts.iter().map(|part| part.angle_from(axis)).collect();
         let angle = angles?.into_iter().fold(0.0, f64::max) + ROUNDING;
         let (sine, cosine) = angle.sin_cos();
-        (cosine > ROUNDING).then_some(Self { axis, cosine, sine })
+        (cosine > ROUNDING).then_some(Self {
+            axis,
+            cosine,
+            sine,
+            depth,
+        })
     }
 }

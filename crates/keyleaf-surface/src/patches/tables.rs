@@ -206,12 +206,18 @@ fn deviation_words(deviations: &LocalDeviation) -> impl Iterator<Item = u32> {
 
 /// The part of a face's normal cone that the record of a root holds.
 fn cone_words(cone: Option<NormalCone>, root: u32) -> [u32; 3] {
-    let Some(NormalCone { axis, cosine, sine }) = cone else {
+    let Some(NormalCone {
+        axis,
+        cosine,
+        sine,
+        depth,
+    }) = cone
+    else {
         return [0; 3];
     };
     match root {
         0 => axis.to_array().map(|c| (c as f32).to_bits()),
-        1 => [(cosine as f32).to_bits(), round_up(sine).to_bits(), 0],
+        1 => [(cosine as f32).to_bits(), round_up(sine).to_bits(), depth],
         _ => [0; 3],
     }
 }

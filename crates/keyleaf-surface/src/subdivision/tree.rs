@@ -96,7 +96,8 @@ impl Grower {
             entry,
             ..Tree::default()
         };
-        self.grow_node(&mut tree, 0, CellPlace::DOMAIN, 0);
+        // A domain at a corner is a step deep, so that the cells along an edge are as deep on both sides.
+        self.grow_node(&mut tree, 0, CellPlace::DOMAIN, u32::from(corner.is_some()));
         tree
     }
 

@@ -168,6 +168,24 @@ fn half_edges_name_their_owners_and_bounds_are_rounded_up() {
     }
 }
 
+/// A triangle as the quadtree has them: its hypotenuse along a side of a square of that depth or a finer one, its apex in the middle, or
+/// half of it.
+fn triangle(random: &mut Random, depth: u32) -> [[f64; 2]; 3] {
+    let squares = f64::from(1 << (depth + random.below(3) as u32));
+    let corner = [0, 1].map(|_| (random.unit() * squares).floor().min(squares - 1.0));
+    let turns = random.below(4);
+    let place = |[x, y]: [f64; 2]| {
+        let [mut x, mut y] = [x - 0.5, y - 0.5];
+        for _ in 0..turns {
+            [x, y] = [-y, x];
+        }
+        [(corner[0] + 0.5 + x) / squares, (corner[1] + 0.5 + y) / squares]
+    };
+    let whole = [[0.0, 0.0], [1.0, 0.0], [0.5, 0.5]];
+    let half = [[0.0, 0.0], [0.5, 0.0], [0.5, 0.5]];
+    [whole, half][random.below(2) as usize].map(place)
+}
+
 #[test]
 fn normal_cones_hold_all_normals() {
     let mut random = Random(31);
@@ -183,8 +201,9 @@ fn normal_cones_hold_all_normals() {
             let floats = |words: &[u32]| [0, 1, 2].map(|k| f64::from(f32::from_bits(words[k])));
             let axis = DVec3::from_array(floats(record(0)));
             let [cosine, sine, _] = floats(record(1));
+            let depth = record(1)[2];
             if axis == DVec3::ZERO {
-                assert_eq!((cosine, sine), (0.0, 0.0));
+                assert_eq!((cosine, sine, depth), (0.0, 0.0, 0));
                 continue;
             }
             assert!((axis.length() - 1.0).abs() < 1e-6 && cosine > 0.0 && (cosine.hypot(sine) - 1.0).abs() < 1e-5);
@@ -196,6 +215,17 @@ fn normal_cones_hold_all_normals() {
                 let normal = model.frame(at).normal;
                 assert!(
                     normal.dot(axis) >= cosine - 1e-6,
+                    "face {face}: {normal} {axis} {cosine}"
+                );
+            }
+            for _ in 0..200 {
+                let [a, b, c] = triangle(&mut random, depth).map(|[u, v]| {
+                    let at = model.face_coord(face, u, v).expect("in the square");
+                    model.frame(at).position
+                });
+                let normal = (b - a).cross(c - a);
+                assert!(
+                    normal.dot(axis) >= (cosine - 1e-6) * normal.length(),
                     "face {face}: {normal} {axis} {cosine}"
                 );
             }
@@ -215,6 +245,12 @@ fn equal_spans_are_stored_once_and_the_shader_follows_the_method() {
     let params = params(&tables);
     assert_eq!(tables.b.len() as u32, params.edges + 4 * 15 * params.faces + 2);
     let shaders: Vec<_> = all_models().iter().map(|(_, model)| model.shader()).collect();
-    let expected = ["nurbs", "nurbs_stair", "nurbs_de_boor", "nurbs_extraction", "bezier"];
+    let expected = [
+        "nurbs",
+        "nurbs_stair",
+        "nurbs_de_boor",
+        "nurbs_extraction",
+        "bezier_cubic",
+    ];
     assert_eq!(shaders, expected.map(|name| format!("surfaces/{name}.wgsl")));
 }

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 /// Every surface module.
-pub const SURFACES: [&str; 20] = [
+pub const SURFACES: [&str; 22] = [
     "surfaces/mesh.wgsl",
     "surfaces/displaced_texture.wgsl",
     "surfaces/displaced_noise.wgsl",
@@ -12,7 +12,9 @@ pub const SURFACES: [&str; 20] = [
     "surfaces/height_field_bilinear.wgsl",
     "surfaces/terrain.wgsl",
     "surfaces/bezier.wgsl",
+    "surfaces/bezier_cubic.wgsl",
     "surfaces/nurbs.wgsl",
+    "surfaces/nurbs_cubic.wgsl",
     "surfaces/nurbs_stair.wgsl",
     "surfaces/nurbs_de_boor.wgsl",
     "surfaces/nurbs_extraction.wgsl",

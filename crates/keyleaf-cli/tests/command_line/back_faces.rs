@@ -23,7 +23,7 @@ fn conservative_culling_of_faces_changes_no_pixel_and_draws_less() {
     let folder = Folder::new("back-faces");
     for scene in ["goblet", "torus", "pot", "panels"] {
         let scene = format!("{}/../../scenes/{scene}.ron", env!("CARGO_MANIFEST_DIR"));
-        let with = |how: &str| picture(&folder, &scene, &format!("--pixels 16 --back-faces {how}"));
+        let with = |how: &str| picture(&folder, &scene, &format!("--pixels 4 --back-faces {how}"));
         let (hidden, all) = with("hidden");
         let (conservative, kept) = with("conservative");
         assert_eq!(hidden, conservative, "{scene}");

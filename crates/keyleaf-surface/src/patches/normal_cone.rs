@@ -9,10 +9,12 @@ use super::bezier_net::BezierNet;
 use super::evaluation::KsQuad;
 use glam::DVec3;
 
-/// A KSQuad is bounded in parts, 4^this of them: the tangents of a part differ less.
-const DEPTH: u32 = 2;
+/// A KSQuad is bounded in parts, at most 4^this of them: the tangents of a part differ less.
+const DEPTH: u32 = 3;
 /// The same where weights differ: what they add to the tangents falls by half with each.
 const DEPTH_OF_WEIGHTS: u32 = 4;
+/// Cosine of the angle of a cone that more parts need not make narrower.
+const NARROW: f64 = 0.8;
 /// Below this sine the rounding of the operands decides the direction of their cross product.
 const PARALLEL: f64 = 1e-12;
 /// What rounding, in f64 here and in f32 where it is used, may turn a normal by, as a sine.
@@ -72,12 +74,8 @@ impl Normals {
         } else {
             0.0
         };
-        let angles = self
-            .crosses
-            .iter()
-            .filter(|n| n.length() > 0.0)
-            .map(|n| n.angle_between(axis));
-        let angle = angles.fold(0.0, f64::max) + turn;
+        let cosines = self.crosses.iter().filter_map(|n| Some(n.try_normalize()?.dot(axis)));
+        let angle = cosines.fold(1.0, f64::min).acos() + turn;
         (angle < std::f64::consts::FRAC_PI_2).then_some(angle)
     }
 }
@@ -90,8 +88,19 @@ impl NormalCone {
         if least <= 0.0 {
             return None;
         }
-        let depth = if greatest > least { DEPTH_OF_WEIGHTS } else { DEPTH };
-        let parts: Vec<Normals> = net.parts(depth).iter().map(Normals::of).collect();
+        let deepest = if greatest > least { DEPTH_OF_WEIGHTS } else { DEPTH };
+        let mut found = None;
+        for depth in 0..=deepest {
+            found = Self::of_parts(&net.clone().parts(depth), depth);
+            if found.is_some_and(|cone| cone.cosine >= NARROW) {
+                break;
+            }
+        }
+        found
+    }
+
+    fn of_parts(parts: &[BezierNet], depth: u32) -> Option<Self> {
+        let parts: Vec<Normals> = parts.iter().map(Normals::of).collect();
         let directions = parts
             .iter()
             .flat_map(|part| &part.crosses)

@@ -12,7 +12,7 @@ use std::path::Path;
 pub fn tool() -> Tool {
     Tool {
         version: env!("CARGO_PKG_VERSION").to_owned(),
-        commit: option_env!("KEYLEAF_COMMIT").unwrap_or_default().to_owned(),
+        commit: env!("KEYLEAF_COMMIT").to_owned(),
         profile: if cfg!(debug_assertions) { "debug" } else { "release" }.to_owned(),
     }
 }

@@ -240,6 +240,6 @@ mod tests {
         let curve = Curve(vec![[30.0, 100.0], [40.0, 10_000.0], [50.0, 20_000.0]]);
         assert_eq!(curve.triangles(35.0).map(f64::round), Some(1000.0));
         assert_eq!(curve.triangles(50.0), Some(20_000.0));
-        assert_eq!((curve.triangles(29.0), curve.triangles(51.0)), (None, None));
+        assert_eq!((curve.triangles(29.0), curve.triangles(51.0)), (Some(100.0), None));
     }
 }

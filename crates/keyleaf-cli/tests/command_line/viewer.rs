@@ -5,7 +5,7 @@ use super::display::Display;
 use super::scenes::shipped;
 use glam::DVec3;
 use serde_json::Value;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Runs the viewer on a scene with some steps; the reports `1.json`, `2.json`, … that they write.
 fn drive(folder: &Folder, scene: &str, size: &str, steps: &str) -> Vec<Value> {
@@ -31,25 +31,9 @@ fn distance(report: &Value) -> f64 {
 }
 
 #[test]
-fn viewer_opens_shipped_scenes_one_after_the_other() {
-    open_all(shipped().into_iter().filter(|scene| !is_of_patches(scene)).collect());
-}
-
-#[test]
-#[ignore = "a software device takes some ten seconds to compile the shaders of each"]
-fn viewer_opens_shipped_scenes_of_patches_one_after_the_other() {
-    open_all(shipped().into_iter().filter(|scene| is_of_patches(scene)).collect());
-}
-
-fn is_of_patches(scene: &Path) -> bool {
-    let text = std::fs::read_to_string(scene).unwrap();
-    ["Patches(", "Nurbs(", "Bezier("]
-        .iter()
-        .any(|source| text.contains(source))
-}
-
-fn open_all(scenes: Vec<PathBuf>) {
+fn viewer_opens_every_shipped_scene_one_after_the_other() {
     let folder = Folder::new("viewer-scenes");
+    let scenes = shipped();
     assert!(scenes.len() > 3);
     let steps = scenes.iter().zip(1..).map(|(scene, n)| {
         let scene = scene.display().to_string();

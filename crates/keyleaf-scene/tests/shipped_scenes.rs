@@ -161,8 +161,9 @@ fn the_scenes_show_every_kind_of_surface_and_metric() {
         "displaced_texture",
         "height_field",
         "terrain",
-        "bezier",
+        "bezier_cubic",
         "nurbs",
+        "nurbs_cubic",
         "gaussian_catmull_clark",
     ] {
         assert!(

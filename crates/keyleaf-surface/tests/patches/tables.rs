@@ -171,7 +171,7 @@ fn half_edges_name_their_owners_and_bounds_are_rounded_up() {
 /// A triangle as the quadtree has them: its hypotenuse along a side of a square of that depth or a finer one, its apex in the middle, or
 /// half of it.
 fn triangle(random: &mut Random, depth: u32) -> [[f64; 2]; 3] {
-    let squares = f64::from(1 << (depth + random.below(3) as u32));
+    let squares = f64::from(1 << (depth + random.below(3)));
     let corner = [0, 1].map(|_| (random.unit() * squares).floor().min(squares - 1.0));
     let turns = random.below(4);
     let place = |[x, y]: [f64; 2]| {

@@ -89,14 +89,16 @@ impl NormalCone {
             return None;
         }
         let deepest = if greatest > least { DEPTH_OF_WEIGHTS } else { DEPTH };
-        let mut found = None;
-        for depth in 0..=deepest {
-            found = Self::of_parts(&net.clone().parts(depth), depth);
-            if found.is_some_and(|cone| cone.cosine >= NARROW) {
-                break;
+        let mut parts = vec![net];
+        let mut depth = 0;
+        loop {
+            let found = Self::of_parts(&parts, depth);
+            if depth == deepest || found.is_some_and(|cone| cone.cosine >= NARROW) {
+                return found;
             }
+            parts = parts.into_iter().flat_map(|part| part.parts(1)).collect();
+            depth += 1;
         }
-        found
     }
 
     fn of_parts(parts: &[BezierNet], depth: u32) -> Option<Self> {

@@ -13,7 +13,7 @@ use crate::subdivision::addresses::canonical;
 use crate::subdivision::approximation::{square_patch, triangle_patch};
 use crate::subdivision::cage::Cage;
 use crate::subdivision::cell::{DomainPoint, TrianglePoint};
-use crate::subdivision::exact::{self, ExactPoint};
+use crate::subdivision::exact::{ExactCells, ExactPoint};
 use crate::subdivision::neighbourhoods::Neighbourhoods;
 use crate::subdivision::{MAX_ENTRIES, MAX_ISOLATION, drawn_topology, face_coord};
 use crate::{
@@ -98,6 +98,8 @@ pub struct GaussianProduct {
     pub(super) bounds: Vec<RootBound>,
     box_of_patches: (DVec3, DVec3),
     terminal_error: f64,
+    /// Of the limit surface, as far as it was asked for.
+    exact: ExactCells<Dual>,
 }
 
 impl GaussianProduct {
@@ -131,6 +133,7 @@ impl GaussianProduct {
             normals: Vec::new(),
             bounds: Vec::new(),
             box_of_patches: (DVec3::ZERO, DVec3::ZERO),
+            exact: ExactCells::new(cage.topology.half_edge_count() as usize),
             cage,
             precisions,
             neighbourhoods,
@@ -216,7 +219,9 @@ impl GaussianProduct {
             let vertex = vertex as usize;
             Dual::of_precision(self.cage.positions[vertex], self.precisions[vertex], frame)
         };
-        let exact = exact::evaluate(&self.cage, self.settings.scheme, self.cage.place(at), value);
+        let exact = self
+            .exact
+            .evaluate(&self.cage, self.settings.scheme, self.cage.place(at), value);
         // The unit of the frame is another one, its axes are the same.
         ExactPoint {
             position: frame.point(exact.position),
@@ -306,9 +311,19 @@ impl Surface for GaussianProduct {
     }
 
     fn frame(&self, at: RootPoint) -> SurfaceFrame {
-        let ExactPoint { du, dv, normal, .. } = self.exact(at);
+        let ExactPoint {
+            position,
+            du,
+            dv,
+            normal,
+        } = self.exact(at);
+        let owner = canonical(&self.topology, at);
         SurfaceFrame {
-            position: self.point(at),
+            position: if owner == at {
+                position
+            } else {
+                self.exact(owner).position
+            },
             du,
             dv,
             normal: normal.unwrap_or(self.normals[at.face as usize]),

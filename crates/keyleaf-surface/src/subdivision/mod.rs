@@ -74,7 +74,7 @@ use crate::{
 };
 use cage::Cage;
 use cell::DomainPoint;
-use exact::ExactPoint;
+use exact::{ExactCells, ExactPoint};
 use glam::DVec3;
 use keyleaf_key::{HalfEdge, Place, RootPoint, Topology};
 use neighbourhoods::{Evaluated, Neighbourhoods};
@@ -148,6 +148,8 @@ pub struct Subdivision {
     terminal_error: f64,
     /// A box of all control points of patches.
     extent: (DVec3, DVec3),
+    /// Of the limit surface, as far as it was asked for.
+    exact: ExactCells<DVec3>,
 }
 
 impl Subdivision {
@@ -180,6 +182,7 @@ impl Subdivision {
             bounds: Vec::new(),
             terminal_error: 0.0,
             extent: (DVec3::INFINITY, DVec3::NEG_INFINITY),
+            exact: ExactCells::new(0),
             topology,
         };
         surface.follow_cage();
@@ -217,6 +220,7 @@ impl Subdivision {
                 self.extent = (self.extent.0.min(point), self.extent.1.max(point));
             }
         }
+        self.exact = ExactCells::new(self.cage.topology.half_edge_count() as usize);
         self.points = points;
         self.normals = (0..self.topology.face_count())
             .map(|face| self.mean_normal(face))
@@ -270,7 +274,8 @@ impl Subdivision {
     /// By local refinement of the face itself.
     fn exact(&self, at: RootPoint) -> ExactPoint {
         let position = |vertex: u32| self.cage.positions[vertex as usize];
-        exact::evaluate(&self.cage, self.scheme, self.cage.place(at), position)
+        self.exact
+            .evaluate(&self.cage, self.scheme, self.cage.place(at), position)
     }
 
     /// The direction of the sum of the patches' area vectors, each from its corners.
@@ -351,9 +356,19 @@ impl Surface for Subdivision {
     }
 
     fn frame(&self, at: RootPoint) -> SurfaceFrame {
-        let ExactPoint { du, dv, normal, .. } = self.exact(at);
+        let ExactPoint {
+            position,
+            du,
+            dv,
+            normal,
+        } = self.exact(at);
+        let owner = addresses::canonical(&self.topology, at);
         SurfaceFrame {
-            position: self.point(at),
+            position: if owner == at {
+                position
+            } else {
+                self.exact(owner).position
+            },
             du,
             dv,
             normal: normal.unwrap_or(self.normals[at.face as usize]),

@@ -164,10 +164,12 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
     );
     let gpu = session::device()?;
     let device = DeviceReport::new(&gpu);
+    let effort = report::Effort { quick: arguments.quick };
     let setup = Setup {
         gpu: &gpu,
         size: arguments.size,
         frames: arguments.frames,
+        timed: effort.timed(),
         quiet,
     };
     let mut tables = Vec::new();
@@ -224,13 +226,14 @@ fn write_report(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
     let load = |file: &PathBuf| load_scene(file, &arguments.reading, &Overrides::default(), quiet);
     let scenes: Vec<Loaded> = arguments.scenes.iter().map(load).collect::<anyhow::Result<_>>()?;
     let gpu = session::device()?;
+    let effort = report::Effort { quick: arguments.quick };
     let setup = Setup {
         gpu: &gpu,
         size: arguments.size,
         frames: arguments.frames,
+        timed: effort.timed(),
         quiet,
     };
-    let effort = report::Effort { quick: arguments.quick };
     let mut page = report::empty(&setup, effort);
     for loaded in &scenes {
         let camera = loaded.camera(arguments.camera.as_deref())?.name.clone();

@@ -12,6 +12,7 @@ use keyleaf_report::report::{Errors, GrowthPoint, Point, Report, SceneReport};
 use keyleaf_report::run::{Clock, SceneRun};
 use keyleaf_report::scaling::{CostModel, device_classes, scaling};
 use keyleaf_stage::{Drawn, Loaded, LoadedObject, Pipelines, drawn};
+use std::time::Duration;
 
 /// How thorough a report is.
 #[derive(Clone, Copy)]
@@ -24,6 +25,16 @@ impl Effort {
     /// Samples of the error of a setting, at most.
     fn samples(self) -> usize {
         if self.quick { 30_000 } else { 400_000 }
+    }
+
+    /// Room for the finest settings: leaves of a surface, at least.
+    fn capacity(self) -> u32 {
+        if self.quick { 1 << 16 } else { 1 << 18 }
+    }
+
+    /// How long frames of a setting are timed at most.
+    pub fn timed(self) -> Duration {
+        Duration::from_millis(if self.quick { 500 } else { 2000 })
     }
 
     /// Edges of the reference picture, pixels.
@@ -112,14 +123,22 @@ pub fn scene(
     measuring.reference = measuring.reference()?;
     bar.inc(1);
     let mut found = Vec::new();
-    for Series { name, points } in &all {
+    for Series {
+        name,
+        points,
+        is_refining,
+    } in &all
+    {
         for (label, changed) in points {
-            found.push(
-                measuring
-                    .point(name, label, changed)
-                    .with_context(|| format!("{name} {label}"))?,
-            );
+            let point = measuring
+                .point(name, label, changed)
+                .with_context(|| format!("{name} {label}"))?;
+            let is_starved = point.starved > 0.0;
+            found.push(point);
             bar.inc(1);
+            if is_starved && *is_refining {
+                break; // finer ones are as well
+            }
         }
     }
     bar.finish_and_clear();
@@ -153,8 +172,8 @@ struct Measuring<'a> {
     clock: Clock,
 }
 
-/// Room for the finest settings.
-const CAPACITY: u32 = 1 << 20;
+/// Room for the reference picture.
+const REFERENCE_CAPACITY: u32 = 1 << 20;
 
 impl Measuring<'_> {
     fn reference(&mut self) -> anyhow::Result<Vec<u8>> {
@@ -164,7 +183,7 @@ impl Measuring<'_> {
                 pixels: self.effort.reference_pixels(),
             };
             object.settings.target_leaves = 0;
-            object.settings.capacity = object.settings.capacity.max(CAPACITY);
+            object.settings.capacity = object.settings.capacity.max(REFERENCE_CAPACITY);
         }
         let mut studio = Studio::with_pipelines(self.setup, &fine, self.view, &mut self.pipelines)?;
         Ok(studio.look()?.pixels)
@@ -173,7 +192,7 @@ impl Measuring<'_> {
     fn point(&mut self, series: &str, label: &str, changed: &Loaded) -> anyhow::Result<Point> {
         let mut roomy = changed.clone();
         for object in &mut roomy.objects {
-            object.settings.capacity = object.settings.capacity.max(CAPACITY / 4);
+            object.settings.capacity = object.settings.capacity.max(self.effort.capacity());
         }
         let mut studio = Studio::with_pipelines(self.setup, &roomy, self.view, &mut self.pipelines)?;
         let film = studio.film()?;

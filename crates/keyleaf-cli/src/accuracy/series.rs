@@ -13,6 +13,8 @@ pub struct Series {
     pub name: &'static str,
     /// Labels with the scene at each value, from coarse to fine where there is an order.
     pub points: Vec<(String, Loaded)>,
+    /// Whether every value needs more leaves than the one before.
+    pub is_refining: bool,
 }
 
 /// Thresholds in pixels, the last ones for long reports only.
@@ -77,6 +79,7 @@ fn of_surfaces<T: Copy>(
     Series {
         name,
         points: points.collect(),
+        is_refining: false,
     }
 }
 
@@ -124,7 +127,15 @@ fn labelled<T: Copy, const N: usize>(values: [T; N], label: impl Fn(T) -> String
 /// All series that have something to say of a scene.
 pub fn all(loaded: &Loaded, quick: bool) -> Vec<Series> {
     let count = if quick { QUICK } else { EDGES.len() };
-    let of_settings = |name, points: Vec<(String, Loaded)>| Series { name, points };
+    let of_settings = |name, points: Vec<(String, Loaded)>| Series {
+        name,
+        points,
+        is_refining: false,
+    };
+    let refining = |name, points| Series {
+        is_refining: true,
+        ..of_settings(name, points)
+    };
     let pixels = |values: &[f32], metric: fn(f32) -> Metric| -> Vec<(String, Loaded)> {
         let at = |&pixels: &f32| {
             let changed = with_settings(loaded, |settings| settings.metric = metric(pixels));
@@ -133,9 +144,9 @@ pub fn all(loaded: &Loaded, quick: bool) -> Vec<Series> {
         values[..count].iter().map(at).collect()
     };
     let has_deviation = |object: &LoadedObject| object.cage.is_some() || object.surface.as_patches().is_some();
-    let mut all = vec![of_settings("edge", pixels(&EDGES, |pixels| Metric::Edge { pixels }))];
+    let mut all = vec![refining("edge", pixels(&EDGES, |pixels| Metric::Edge { pixels }))];
     if loaded.objects.iter().all(has_deviation) {
-        all.push(of_settings(
+        all.push(refining(
             "deviation",
             pixels(&DEVIATIONS, |pixels| Metric::Deviation { pixels }),
         ));

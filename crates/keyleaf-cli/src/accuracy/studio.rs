@@ -15,11 +15,10 @@ pub struct Setup<'a> {
     pub size: UVec2,
     /// Frames that are timed.
     pub frames: u32,
+    /// No more frames are timed after this.
+    pub timed: Duration,
     pub quiet: bool,
 }
-
-/// No more frames are timed after this.
-const LONG_ENOUGH: Duration = Duration::from_secs(2);
 
 /// A scene of one surface, ready to be drawn.
 pub struct Studio<'a> {
@@ -103,7 +102,7 @@ impl<'a> Studio<'a> {
         frame()?; // shaders are compiled at their first use
         let begin = Instant::now();
         let mut frames = Vec::new();
-        while frames.len() < self.setup.frames as usize && (frames.is_empty() || begin.elapsed() < LONG_ENOUGH) {
+        while frames.len() < self.setup.frames as usize && (frames.is_empty() || begin.elapsed() < self.setup.timed) {
             frames.push(frame()?);
         }
         Ok(Film {
@@ -125,7 +124,7 @@ impl<'a> Studio<'a> {
         for _ in 0..frames {
             let frame = frame()?;
             times.push(frame.update.ms + frame.draw.unwrap_or_default().ms);
-            if begin.elapsed() > LONG_ENOUGH {
+            if begin.elapsed() > self.setup.timed {
                 break;
             }
         }

@@ -109,6 +109,18 @@ impl Domain {
         leaves.then_some(DVec2::new(1.0, -1.0))
     }
 
+    /// Whether these points lie on one mesh edge.
+    pub fn has_edge(self, ends: [DVec2; 2]) -> bool {
+        let all = |is_there: fn(DVec2) -> bool| ends.into_iter().all(is_there);
+        match self {
+            Self::Square { .. } => {
+                all(|p| p.x == 0.0) || all(|p| p.x == 1.0) || all(|p| p.y == 0.0) || all(|p| p.y == 1.0)
+            }
+            Self::Triangle { .. } => all(|p| p.x == 0.0) || all(|p| p.y == 0.0) || all(|p| p.x + p.y == 1.0),
+            Self::Root { .. } => all(|p| p.x + p.y == 1.0),
+        }
+    }
+
     fn is_square(self) -> bool {
         matches!(self, Self::Square { .. })
     }

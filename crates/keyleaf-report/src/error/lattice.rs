@@ -55,6 +55,17 @@ pub(super) fn cells(intervals: u32) -> Vec<[usize; 3]> {
     cells
 }
 
+/// The points along the edges, from corner k to the next, as indices into the lattice.
+pub(super) fn along_edges(intervals: u32) -> [Vec<usize>; 3] {
+    let n = intervals.max(2) as usize;
+    let row = |i: usize| (0..i).map(|i| n + 1 - i).sum::<usize>();
+    [
+        (0..=n).map(row).collect(),
+        (0..=n).map(|t| row(n - t) + t).collect(),
+        (0..=n).map(|t| n - t).collect(),
+    ]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -71,6 +82,17 @@ mod tests {
             assert!((mean(|_| 1.0) - 1.0).abs() < 1e-14);
             assert!((mean(|w| w[1] * w[1]) - 1.0 / 6.0).abs() < 1e-14);
             assert!((mean(|w| w[0] * w[2]) - 1.0 / 12.0).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn points_along_an_edge_have_no_weight_of_the_corner_across_it() {
+        let points = lattice(6);
+        for (k, along) in along_edges(6).into_iter().enumerate() {
+            let weight =
+                |corner: usize| -> Vec<f64> { along.iter().map(|&i| points[i].weights[corner % 3] * 6.0).collect() };
+            assert_eq!(weight(k), [6.0, 5.0, 4.0, 3.0, 2.0, 1.0, 0.0]);
+            assert_eq!(weight(k + 2), [0.0; 7]);
         }
     }
 

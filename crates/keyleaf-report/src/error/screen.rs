@@ -82,6 +82,13 @@ impl ScreenView {
     pub(super) fn facing(&self, p: DVec3, normal: DVec3) -> f64 {
         normal.dot(self.eye.truncate() - p * self.eye.w)
     }
+
+    /// The same for a unit normal, over the length of the way to the eye; 0 where rounding decides the sign.
+    pub(super) fn facing_cosine(&self, p: DVec3, normal: DVec3) -> f64 {
+        const ROUNDING: f64 = 1e-12;
+        let cosine = self.facing(p, normal) / (self.eye.truncate() - p * self.eye.w).length();
+        if cosine.abs() > ROUNDING { cosine } else { 0.0 }
+    }
 }
 
 /// Errors while samples come in.

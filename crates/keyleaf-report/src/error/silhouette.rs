@@ -1,16 +1,17 @@
 //! Contours: where a surface turns from front to back.
 //!
-//! That of the surface is where normal · (eye − p) = 0: every drawn triangle's lattice is searched for changes of sign, and the
-//! crossings are refined on the surface. That of triangles are the edges between one that faces the eye and one that does not. Both are
-//! compared as curves in the picture. Contours that nearer parts hide count as well; boundaries do not, as culling makes some.
+//! That of the surface is where (du × dv) · (eye − p) = 0: every drawn triangle's lattice is searched for changes of sign, and the
+//! crossings are refined on the surface; and where that sign differs between both sides of a triangle's edge, as at creases. That of
+//! triangles are the edges between one that faces the eye and one that does not. Both are compared as curves in the picture. Contours
+//! that nearer parts hide count as well; boundaries do not, as culling makes some.
 
 use super::domain::Domain;
-use super::lattice::{cells, lattice};
+use super::lattice::{along_edges, cells, lattice};
 use super::measure::Sum;
 use super::tree::Tree;
 use super::{DrawnTriangle, Measure, MeasureError, ScreenView, Truth};
 use glam::{DVec2, DVec3};
-use keyleaf_surface::Surface;
+use keyleaf_surface::{Surface, SurfaceFrame};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::HashMap;
@@ -42,17 +43,19 @@ pub(super) fn measure(
 ) -> Result<Option<Silhouette>, MeasureError> {
     let contour = Contour { surface, truth, view };
     let pairs: Vec<_> = triangles.iter().zip(domains).collect();
-    let found: Vec<Vec<Segment>> = pairs
+    let found: Vec<Found> = pairs
         .par_chunks(256)
         .map(|piece| {
-            let mut segments = Vec::new();
+            let mut found = Found::default();
             piece
                 .iter()
-                .try_for_each(|(t, domain)| contour.add(t, **domain, intervals, &mut segments))?;
-            Ok(segments)
+                .try_for_each(|(t, domain)| contour.add(t, **domain, intervals, &mut found))?;
+            Ok(found)
         })
         .collect::<Result<_, MeasureError>>()?;
-    let of_surface: Vec<Segment> = found.into_iter().flatten().collect();
+    let (segments, edges): (Vec<_>, Vec<_>) = found.into_iter().map(|found| (found.segments, found.edges)).unzip();
+    let mut of_surface: Vec<Segment> = segments.into_iter().flatten().collect();
+    add_creases(edges.into_iter().flatten(), view, &mut of_surface);
     let of_triangles = contour_edges(triangles, view);
     let (to_triangles, length) = distances(&of_surface, &of_triangles, view);
     let (to_surface, other_length) = distances(&of_triangles, &of_surface, view);
@@ -85,6 +88,65 @@ fn distances(from: &[Segment], to: &[Segment], view: &ScreenView) -> (Sum, f64) 
     (sum, length)
 }
 
+/// The ends of an edge by their bits, the smaller first.
+type EdgeKey = [[u64; 3]; 2];
+
+/// Whether the first end is the first of the key.
+fn edge_key(from: DVec3, to: DVec3) -> (EdgeKey, bool) {
+    let bits = |p: DVec3| (p + 0.0).to_array().map(f64::to_bits);
+    let (from, to) = (bits(from), bits(to));
+    if from <= to {
+        ([from, to], true)
+    } else {
+        ([to, from], false)
+    }
+}
+
+/// The surface along a drawn triangle's edge that lies on a mesh edge, on the triangle's side, in the direction of the key.
+struct EdgeSide {
+    key: EdgeKey,
+    points: Vec<Seen>,
+}
+
+/// A point of the surface.
+#[derive(Clone, Copy)]
+struct Seen {
+    position: DVec3,
+    /// That of the surface, however it is shaded.
+    normal: DVec3,
+    /// The cosine between it and the way to the eye.
+    facing: f64,
+}
+
+/// Two normals with a smaller cosine, 1.4e-4 radians, are those of a crease.
+const CREASE: f64 = 1.0 - 1e-8;
+
+/// What some triangles have of the surface's contour.
+#[derive(Default)]
+struct Found {
+    segments: Vec<Segment>,
+    edges: Vec<EdgeSide>,
+}
+
+/// The parts of edges on whose sides the surface faces the eye here and not there.
+fn add_creases(edges: impl Iterator<Item = EdgeSide>, view: &ScreenView, segments: &mut Vec<Segment>) {
+    let mut first_sides: HashMap<EdgeKey, EdgeSide> = HashMap::new();
+    for side in edges {
+        let Some(other) = first_sides.remove(&side.key) else {
+            first_sides.insert(side.key, side);
+            continue;
+        };
+        for (own, others) in side.points.windows(2).zip(other.points.windows(2)) {
+            let is_front = |ends: &[Seen]| ends[0].facing + ends[1].facing >= 0.0;
+            let is_crease = own.iter().zip(others).any(|(a, b)| a.normal.dot(b.normal) < CREASE);
+            if is_crease && is_front(own) != is_front(others) {
+                let [from, to] = [0, 1].map(|i| view.pixel(own[i].position));
+                segments.extend(from.zip(to).map(|(a, b)| [a, b]));
+            }
+        }
+    }
+}
+
 struct Contour<'a> {
     surface: &'a dyn Surface,
     truth: Truth,
@@ -98,19 +160,36 @@ impl Contour<'_> {
         triangle: &DrawnTriangle,
         domain: Domain,
         intervals: u32,
-        segments: &mut Vec<Segment>,
+        found: &mut Found,
     ) -> Result<(), MeasureError> {
-        let [a, b, c] = triangle.corners.map(|corner| domain.parameters(corner.at));
-        let points = lattice(intervals);
-        let parameters: Vec<DVec2> = points
+        let corners = triangle.corners.map(|corner| domain.parameters(corner.at));
+        let on_mesh_edge = [0, 1, 2].map(|k| domain.has_edge([corners[k], corners[(k + 1) % 3]]));
+        if !on_mesh_edge.contains(&true) && self.is_far(domain, corners)? {
+            return Ok(());
+        }
+        let [a, b, c] = corners;
+        let parameters: Vec<DVec2> = lattice(intervals)
             .iter()
             .map(|p| a * p.weights[0] + b * p.weights[1] + c * p.weights[2])
             .collect();
-        let facing: Vec<f64> = parameters
-            .iter()
-            .map(|at| Ok(self.facing(domain, *at)?.0))
-            .collect::<Result<_, MeasureError>>()?;
-        let is_front = |i: usize| facing[i] >= 0.0;
+        let points = parameters.iter().map(|at| self.seen(domain, *at));
+        let points: Vec<Seen> = points.collect::<Result<_, MeasureError>>()?;
+        let ends = triangle.positions();
+        for (k, along) in along_edges(intervals).into_iter().enumerate() {
+            if !on_mesh_edge[k] {
+                continue; // no crease inside a face
+            }
+            let (key, is_forward) = edge_key(ends[k], ends[(k + 1) % 3]);
+            let mut side = EdgeSide {
+                key,
+                points: along.iter().map(|&i| points[i]).collect(),
+            };
+            if !is_forward {
+                side.points.reverse();
+            }
+            found.edges.push(side);
+        }
+        let is_front = |i: usize| points[i].facing >= 0.0;
         if (0..points.len()).all(is_front) || !(0..points.len()).any(is_front) {
             return Ok(());
         }
@@ -118,20 +197,41 @@ impl Contour<'_> {
             let mut ends = Vec::new();
             for [i, j] in [[0, 1], [1, 2], [2, 0]].map(|edge| edge.map(|k: usize| cell[k])) {
                 if is_front(i) != is_front(j) {
-                    let p = self.crossing(domain, [parameters[i], parameters[j]], [facing[i], facing[j]])?;
+                    let p = self.crossing(domain, [i, j].map(|i| parameters[i]), [i, j].map(|i| points[i].facing))?;
                     ends.extend(self.view.pixel(p));
                 }
             }
             if let [from, to] = ends[..] {
-                segments.push([from, to]);
+                found.segments.push([from, to]);
             }
         }
         Ok(())
     }
 
-    fn facing(&self, domain: Domain, at: DVec2) -> Result<(f64, DVec3), MeasureError> {
-        let frame = self.truth.frame(self.surface, domain.point(self.surface, at)?);
-        Ok((self.view.facing(frame.position, frame.normal), frame.position))
+    /// Whether the surface over a triangle faces one way, as far as the corners tell: all normals by more than they differ.
+    fn is_far(&self, domain: Domain, corners: [DVec2; 3]) -> Result<bool, MeasureError> {
+        let [a, b, c] = corners.map(|at| self.seen(domain, at));
+        let ends = [a?, b?, c?];
+        let spread = [[0, 1], [1, 2], [2, 0]].map(|[i, j]| ends[i].normal.distance(ends[j].normal));
+        let spread = spread.into_iter().fold(0.0, f64::max);
+        Ok(ends.iter().all(|end| end.facing > spread) || ends.iter().all(|end| end.facing < -spread))
+    }
+
+    fn seen(&self, domain: Domain, at: DVec2) -> Result<Seen, MeasureError> {
+        let SurfaceFrame {
+            position,
+            du,
+            dv,
+            normal,
+        } = self.truth.frame(self.surface, domain.point(self.surface, at)?);
+        // Polygons may be shaded by other normals than their own. At poles there is only the normal.
+        let across = du.cross(dv).normalize_or_zero();
+        let normal = if across.dot(normal) > 0.0 { across } else { normal };
+        Ok(Seen {
+            position,
+            normal,
+            facing: self.view.facing_cosine(position, normal),
+        })
     }
 
     /// Where the surface turns between two parameters: regula falsi, Illinois variant.
@@ -143,7 +243,7 @@ impl Contour<'_> {
                 break;
             }
             let t = (low - below * (high - low) / (above - below)).clamp(low, high);
-            let value = self.facing(domain, at(t))?.0;
+            let value = self.seen(domain, at(t))?.facing;
             if (value >= 0.0) == (below >= 0.0) {
                 (low, below, above) = (t, value, above / 2.0);
             } else {
@@ -151,15 +251,14 @@ impl Contour<'_> {
             }
         }
         let t = if below.abs() <= above.abs() { low } else { high };
-        Ok(self.facing(domain, at(t))?.1)
+        Ok(self.seen(domain, at(t))?.position)
     }
 }
 
 /// Edges between a triangle that faces the eye and one that does not. Edges are the same where their ends have the same bits, as they
 /// have on a closed surface.
 fn contour_edges(triangles: &[DrawnTriangle], view: &ScreenView) -> Vec<Segment> {
-    let bits = |p: DVec3| (p + 0.0).to_array().map(f64::to_bits);
-    let mut sides: HashMap<[[u64; 3]; 2], [bool; 2]> = HashMap::new();
+    let mut sides: HashMap<EdgeKey, [bool; 2]> = HashMap::new();
     let mut contour = Vec::new();
     for triangle in triangles {
         let normal = triangle.area_vector();
@@ -169,9 +268,7 @@ fn contour_edges(triangles: &[DrawnTriangle], view: &ScreenView) -> Vec<Segment>
         let [a, b, c] = triangle.positions();
         let is_front = view.facing(a, normal) >= 0.0;
         for [from, to] in [[a, b], [b, c], [c, a]] {
-            let mut key = [bits(from), bits(to)];
-            key.sort_unstable();
-            let seen = sides.entry(key).or_default();
+            let seen = sides.entry(edge_key(from, to).0).or_default();
             let was_contour = seen[0] && seen[1];
             seen[usize::from(is_front)] = true;
             if seen[0] && seen[1] && !was_contour {

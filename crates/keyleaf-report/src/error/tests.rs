@@ -5,7 +5,7 @@ use super::sphere::Sphere;
 use super::*;
 use glam::{DMat4, DQuat, DVec3, DVec4};
 use keyleaf_key::{ONE, Place, RootPoint};
-use keyleaf_surface::Surface;
+use keyleaf_surface::{CornerAttributes, Mesh, PolygonMesh, Surface};
 
 const UNIT: ErrorSettings = ErrorSettings {
     intervals: 6,
@@ -256,6 +256,51 @@ fn a_perspective_silhouette_falls_with_the_level() {
         "{coarse:?} {fine:?}"
     );
     assert!(near(coarse.length, fine.length, 0.01));
+}
+
+#[test]
+fn the_creases_of_a_flat_mesh_are_its_silhouette() {
+    let corner = |k: u32| DVec3::new(f64::from(k & 1), f64::from(k >> 1 & 1), f64::from(k >> 2)) * 2.0 - 1.0;
+    let cube = PolygonMesh {
+        positions: (0..8).map(corner).collect(),
+        faces: [
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [1, 3, 7, 5],
+            [3, 2, 6, 7],
+            [2, 0, 4, 6],
+        ]
+        .into_iter()
+        .collect(),
+        corners: CornerAttributes::default(),
+    };
+    let surface = Mesh::new(&cube).unwrap();
+    let vertex = |face, [u, v]: [f64; 2]| {
+        let at = surface.face_coord(face, u, v).unwrap();
+        let frame = surface.frame(at);
+        DrawnVertex {
+            at,
+            position: frame.position,
+            normal: frame.normal,
+        }
+    };
+    let of_face = |face| {
+        let [a, b, c, d] = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|at| vertex(face, at));
+        [[a, b, c], [a, c, d]].map(|corners| DrawnTriangle { corners })
+    };
+    let triangles: Vec<_> = (0..6).flat_map(of_face).collect();
+    let view = perspective(DVec3::new(4.0, 3.4, 4.6), 0.8, [500, 500]);
+    let error = measure(&surface, &triangles, &UNIT, Some(&view)).unwrap();
+    let contour = error.screen.unwrap().silhouette.unwrap();
+    assert!(contour.error.max < 1e-9, "{contour:?}");
+    // Six of the cube's edges.
+    let pixel = |k| view.pixel(corner(k)).unwrap();
+    let outline: f64 = [[1, 3], [3, 2], [2, 6], [6, 4], [4, 5], [5, 1]]
+        .map(|[a, b]| pixel(a).distance(pixel(b)))
+        .iter()
+        .sum();
+    assert!(near(contour.length, outline, 1e-9), "{contour:?} {outline}");
 }
 
 #[test]

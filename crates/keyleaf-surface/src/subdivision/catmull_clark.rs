@@ -40,6 +40,14 @@ pub fn child(ring: &Ring, corner: usize, creasing: Creasing) -> Child {
     step.children([child]).into()
 }
 
+/// The points of the first step of a face that is no quad, and its children at its corners; see [`child`].
+pub fn children_at_corners(ring: &Ring, creasing: Creasing) -> (Vec<Stencil>, Vec<SharedChild>) {
+    let mut step = Refinement::new(ring, creasing, &CatmullClark);
+    let corners = 0..ring.fans.len();
+    let children = corners.map(|corner| shared_child(&mut step, corner)).collect();
+    (step.into_points(), children)
+}
+
 /// The children of a quad at its corners.
 pub fn children(ring: &Ring, creasing: Creasing) -> Children<4> {
     let mut step = Refinement::new(ring, creasing, &CatmullClark);

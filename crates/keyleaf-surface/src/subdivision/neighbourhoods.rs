@@ -2,13 +2,37 @@
 
 use super::SubdivisionScheme;
 use super::cage::{Cage, Placed};
+use super::ring::Ring;
 use super::shapes::{Shape, Shapes};
-use super::stencil::Vector;
+use super::stencil::{Stencils, Vector};
 use super::tree::{Grower, Node, Tree};
 use std::collections::HashMap;
 
-/// The trees of a kind of neighbourhood, one a domain.
-pub type Kind = Vec<Tree>;
+/// A kind of neighbourhood.
+#[derive(Clone, Debug)]
+pub struct Kind {
+    /// The points of the first step of a face that has several domains, from the vertices of its ring.
+    first_step: Option<Stencils>,
+    /// One a domain.
+    pub trees: Vec<Tree>,
+}
+
+impl Kind {
+    fn new(ring: &Ring, grower: &mut Grower) -> Self {
+        let is_domain = grower.scheme != SubdivisionScheme::CatmullClark || ring.fans.len() == 4;
+        if is_domain {
+            return Self {
+                first_step: None,
+                trees: vec![grower.of_face(ring)],
+            };
+        }
+        let (points, trees) = grower.of_corners(ring);
+        Self {
+            first_step: Some(points),
+            trees,
+        }
+    }
+}
 
 /// A face: its kind and its ring.
 #[derive(Clone, Debug)]
@@ -51,16 +75,11 @@ impl Neighbourhoods {
         for &face in &cage.drawn {
             let Placed { ring, vertices } = cage.ring(face);
             let kind = *known.entry(ring.signature()).or_insert_with(|| {
-                let corners = ring.fans.len();
-                let domains = if corners == 4 || control_points == super::quartic::CONTROL_POINTS {
-                    vec![None]
-                } else {
-                    (0..corners).map(Some).collect()
-                };
-                kinds.push(domains.into_iter().map(|corner| grower.grow(&ring, corner)).collect());
+                kinds.push(Kind::new(&ring, &mut grower));
                 kinds.len() as u32 - 1
             });
             let first_entries = kinds[kind as usize]
+                .trees
                 .iter()
                 .map(|tree| {
                     let first = entries;
@@ -85,7 +104,7 @@ impl Neighbourhoods {
 
     /// The trees of a face.
     pub fn trees(&self, face: u32) -> &[Tree] {
-        &self.kinds[self.faces[face as usize].kind as usize]
+        &self.kinds[self.faces[face as usize].kind as usize].trees
     }
 
     /// What the patches are for these values of the control vertices.
@@ -124,11 +143,16 @@ impl Neighbourhoods {
     }
 
     fn evaluate_face<V: Vector>(&self, kind: u32, ring: &[V], all: &mut Evaluated<V>) {
-        for tree in &self.kinds[kind as usize] {
-            let ring = match &tree.entry {
-                Some(entry) => entry.apply(ring).collect(),
-                None => ring.to_vec(),
-            };
+        let Kind { first_step, trees } = &self.kinds[kind as usize];
+        let Some(first_step) = first_step else {
+            trees
+                .iter()
+                .for_each(|tree| self.evaluate_node(tree, 0, V::ZERO, ring.to_vec(), all));
+            return;
+        };
+        let points: Vec<V> = first_step.apply(ring).collect();
+        for tree in trees {
+            let ring = tree.entry.iter().map(|&point| points[point as usize]).collect();
             self.evaluate_node(tree, 0, V::ZERO, ring, all);
         }
     }

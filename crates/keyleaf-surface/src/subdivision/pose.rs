@@ -83,7 +83,7 @@ pub fn tables(surface: &Subdivision) -> PoseTables {
 }
 
 fn patches(kind: &Kind) -> usize {
-    kind.iter().map(|tree| tree.places.len()).sum()
+    kind.trees.iter().map(|tree| tree.places.len()).sum()
 }
 
 /// The half-edge on the other side, by half-edge.
@@ -136,18 +136,18 @@ fn sizes_of_kinds(all: &Neighbourhoods, topology: &Topology) -> Vec<[usize; 2]> 
 
 /// The record of a kind.
 fn record(kind: &Kind, scheme: SubdivisionScheme, corners: usize) -> Vec<u32> {
-    let places = kind.iter().flat_map(|tree| &tree.places);
+    let places = kind.trees.iter().flat_map(|tree| &tree.places);
     let mut words: Vec<u32> = places
         .map(|place| (1.0 / place.right[0].abs()) as f32)
         .map(f32::to_bits)
         .collect();
     let mut first_patch = vec![0];
-    for tree in kind {
+    for tree in &kind.trees {
         first_patch.push(first_patch[first_patch.len() - 1] + tree.places.len() as u32);
     }
     let lists: Vec<Vec<u32>> = (0..corners)
         .map(|root| {
-            let touched = bound::touched(kind, scheme, corners, root).into_iter();
+            let touched = bound::touched(&kind.trees, scheme, corners, root).into_iter();
             touched
                 .map(|touched| {
                     let patch = first_patch[touched.domain] + touched.patch;

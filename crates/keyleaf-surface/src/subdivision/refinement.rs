@@ -4,9 +4,10 @@ use super::Creasing;
 use super::ring::{Fan, Ring, Spoke};
 use super::sharpness::{VertexRule, decremented, is_semi_sharp, mean_of_others};
 use super::stencil::Stencil;
+use std::collections::HashMap;
 
 /// What a vertex of the finer mesh comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Source {
     Corner(usize),
     /// The smaller vertex first.
@@ -106,13 +107,15 @@ pub struct Refinement<'a, M> {
     masks: &'a M,
     /// Sharpness of the near halves of the spokes of every corner.
     near_halves: Vec<Vec<f64>>,
-    /// Of the points of all children.
-    sources: Vec<Source>,
+    /// The points of all children.
     points: Vec<Stencil>,
+    point_of: HashMap<Source, u32>,
     /// The points that the vertices of this child are.
     vertices: Vec<u32>,
-    face_keys: Vec<[usize; 3]>,
+    /// By point.
+    vertex_of: HashMap<u32, u32>,
     faces: Vec<Vec<u32>>,
+    face_of: HashMap<[usize; 3], u32>,
 }
 
 impl<'a, M: Masks> Refinement<'a, M> {
@@ -126,17 +129,19 @@ impl<'a, M: Masks> Refinement<'a, M> {
                 .iter()
                 .map(|fan| fan.subdivided_sharpnesses(creasing))
                 .collect(),
-            sources: Vec::new(),
             points: Vec::new(),
+            point_of: HashMap::new(),
             vertices: Vec::new(),
-            face_keys: Vec::new(),
+            vertex_of: HashMap::new(),
             faces: Vec::new(),
+            face_of: HashMap::new(),
         }
     }
 
     /// The child whose corners have these fans. What is asked for after that belongs to another one.
     pub fn finish(&mut self, fans: Vec<Fan>) -> SharedChild {
-        self.face_keys.clear();
+        self.vertex_of.clear();
+        self.face_of.clear();
         let vertices = std::mem::take(&mut self.vertices);
         SharedChild {
             ring: Ring {
@@ -148,6 +153,11 @@ impl<'a, M: Masks> Refinement<'a, M> {
         }
     }
 
+    /// The points of all children.
+    pub fn into_points(self) -> Vec<Stencil> {
+        self.points
+    }
+
     /// All that has been made.
     pub fn children<const N: usize>(self, children: [SharedChild; N]) -> Children<N> {
         Children {
@@ -157,18 +167,17 @@ impl<'a, M: Masks> Refinement<'a, M> {
     }
 
     fn vertex(&mut self, source: Source, stencil: impl FnOnce(&Self) -> Stencil) -> u32 {
-        let known = self.sources.iter().position(|&known| known == source);
-        let point = known.unwrap_or_else(|| {
+        let point = self.point_of.get(&source).copied().unwrap_or_else(|| {
             let stencil = stencil(self);
-            self.sources.push(source);
+            let point = self.points.len() as u32;
             self.points.push(stencil);
-            self.points.len() - 1
-        }) as u32;
-        let known = self.vertices.iter().position(|&known| known == point);
-        known.unwrap_or_else(|| {
+            self.point_of.insert(source, point);
+            point
+        });
+        *self.vertex_of.entry(point).or_insert_with(|| {
             self.vertices.push(point);
-            self.vertices.len() - 1
-        }) as u32
+            self.vertices.len() as u32 - 1
+        })
     }
 
     /// The point of a corner of the middle face.
@@ -210,13 +219,14 @@ impl<'a, M: Masks> Refinement<'a, M> {
 
     /// The face with this key, with vertices that are made if it is new.
     pub fn face(&mut self, key: [usize; 3], vertices: impl FnOnce(&mut Self) -> Vec<u32>) -> u32 {
-        if let Some(known) = self.face_keys.iter().position(|&known| known == key) {
-            return known as u32;
+        if let Some(&known) = self.face_of.get(&key) {
+            return known;
         }
         let vertices = vertices(self);
-        self.face_keys.push(key);
+        let face = self.faces.len() as u32;
+        self.face_of.insert(key, face);
         self.faces.push(vertices);
-        self.faces.len() as u32 - 1
+        face
     }
 
     /// The near half of a spoke, from its corner.

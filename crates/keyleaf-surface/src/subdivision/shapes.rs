@@ -5,7 +5,7 @@
 //! or to control points. Values go down a tree from ring to ring.
 
 use super::loop_scheme;
-use super::refinement::{Child, Children};
+use super::refinement::Children;
 use super::ring::Ring;
 use super::spectrum::Spectra;
 use super::stencil::{Stencil, Stencils};
@@ -136,10 +136,14 @@ impl Shapes {
         shapes
     }
 
-    /// The child at a corner of a face that is no quad: its shape, and its vertices from those of the ring.
-    pub fn at_corner(&mut self, ring: &Ring, corner: usize) -> (u32, Stencils) {
-        let Child { ring, stencils } = catmull_clark::child(ring, corner, self.creasing);
-        (self.of(ring), stencils.iter().collect())
+    /// The points of the first step of a face that is no quad, from the vertices of its ring, and its children at its corners.
+    pub fn at_corners(&mut self, ring: &Ring) -> (Stencils, Vec<ChildShape>) {
+        let (points, children) = catmull_clark::children_at_corners(ring, self.creasing);
+        let children = children.into_iter().map(|child| ChildShape {
+            shape: self.of(child.ring),
+            vertices: child.vertices,
+        });
+        (points.iter().collect(), children.collect())
     }
 }
 

@@ -122,8 +122,8 @@ fn node_words(all: &Neighbourhoods, first: usize) -> (Vec<u32>, Vec<Vec<u32>>) {
     let mut words = Vec::new();
     let mut roots = Vec::with_capacity(all.kinds.len());
     for kind in &all.kinds {
-        let mut roots_of_kind = Vec::with_capacity(kind.len());
-        for tree in kind {
+        let mut roots_of_kind = Vec::with_capacity(kind.trees.len());
+        for tree in &kind.trees {
             let root = (first + words.len()) as u32;
             roots_of_kind.push(root);
             words.extend(tree.nodes.iter().map(|node| match node {

@@ -3,7 +3,7 @@
 
 use super::SubdivisionScheme;
 use super::ring::Ring;
-use super::shapes::Shapes;
+use super::shapes::{ChildShape, Shapes};
 use super::stencil::Stencils;
 
 /// A node of a tree.
@@ -67,8 +67,8 @@ pub struct Tree {
     pub shapes: Vec<u32>,
     /// Where the patches are.
     pub places: Vec<CellPlace>,
-    /// The vertices of the domain's ring from those of the face's, where the face is not the domain.
-    pub entry: Option<Stencils>,
+    /// The points of the face's first step that the vertices of the domain's ring are, where the face is not the domain.
+    pub entry: Vec<u32>,
 }
 
 /// How trees are grown: cells are split until they are regular, or as deep as the isolation says and their sharpness is used up, which
@@ -81,23 +81,28 @@ pub struct Grower {
 }
 
 impl Grower {
-    /// The tree of a domain: of the middle face of a ring, or of the child at one of its corners.
-    pub fn grow(&mut self, ring: &Ring, corner: Option<usize>) -> Tree {
-        let (shape, entry) = match corner {
-            Some(corner) => {
-                let (shape, entry) = self.shapes.at_corner(ring, corner);
-                (shape, Some(entry))
-            }
-            None => (self.shapes.of(ring.clone()), None),
-        };
+    /// The tree of the middle face of a ring.
+    pub fn of_face(&mut self, ring: &Ring) -> Tree {
+        let shape = self.shapes.of(ring.clone());
+        self.grow(shape, Vec::new(), 0)
+    }
+
+    /// The trees of the children of the middle face of a ring, no quad, at its corners, and the points of the first step.
+    pub fn of_corners(&mut self, ring: &Ring) -> (Stencils, Vec<Tree>) {
+        let (points, children) = self.shapes.at_corners(ring);
+        // A domain at a corner is a step deep, so that the cells along an edge are as deep on both sides.
+        let grow = |ChildShape { shape, vertices }| self.grow(shape, vertices, 1);
+        (points, children.into_iter().map(grow).collect())
+    }
+
+    fn grow(&mut self, shape: u32, entry: Vec<u32>, depth: u32) -> Tree {
         let mut tree = Tree {
             nodes: vec![Node::Patch(0)],
             shapes: vec![shape],
             entry,
             ..Tree::default()
         };
-        // A domain at a corner is a step deep, so that the cells along an edge are as deep on both sides.
-        self.grow_node(&mut tree, 0, CellPlace::DOMAIN, u32::from(corner.is_some()));
+        self.grow_node(&mut tree, 0, CellPlace::DOMAIN, depth);
         tree
     }
 

@@ -26,7 +26,7 @@ pub struct Corner {
 /// What becomes of the boundary of a mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum BoundaryRule {
-    /// Faces at a boundary vertex are only control data: the surface ends before them.
+    /// Faces at a boundary vertex are only control data, also where boundary edges are tagged sharp: the surface ends before them.
     None,
     /// Boundary edges are sharp: their limit is a cubic B-spline curve.
     #[default]

@@ -302,6 +302,31 @@ fn sharpened(mut control: ControlMesh, random: &mut Random) -> ControlMesh {
     control
 }
 
+/// Creases and corners at random, of sharpness 0.3 to 5 or for ever.
+pub fn any_sharpness(mut control: ControlMesh, random: &mut Random) -> ControlMesh {
+    let value = |random: &mut Random| match random.below(4) {
+        0 => INFINITE_SHARPNESS,
+        _ => 0.3 + 4.7 * random.unit().powi(2),
+    };
+    let edges: Vec<Edge> = Global::new(&control, false).edges.keys().copied().collect();
+    for (a, b) in edges {
+        if random.below(6) == 0 {
+            let sharpness = value(random);
+            control.creases.push(Crease {
+                vertices: [a, b],
+                sharpness,
+            });
+        }
+    }
+    for vertex in 0..control.mesh.positions.len() as u32 {
+        if random.below(10) == 0 {
+            let sharpness = value(random);
+            control.corners.push(Corner { vertex, sharpness });
+        }
+    }
+    control
+}
+
 #[test]
 fn a_refined_mesh_has_the_same_limit_surface() {
     let mut random = Random(17);

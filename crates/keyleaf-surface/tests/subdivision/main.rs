@@ -8,5 +8,6 @@ mod models;
 #[path = "../oracle_tables/mod.rs"]
 mod oracle_tables;
 mod oracles;
+mod random_shapes;
 mod speed;
 mod tables;

@@ -5,8 +5,8 @@ use crate::oracle_tables::{floats, list, oracle};
 use glam::DVec3;
 use keyleaf_key::RootPoint;
 use keyleaf_surface::{
-    BoundaryRule, ControlMesh, Corner, Crease, Creasing, INFINITE_SHARPNESS, LoopWeights, MeshError, Subdivision,
-    SubdivisionError, SubdivisionScheme, Surface,
+    BoundaryRule, ControlMesh, Corner, Crease, Creasing, INFINITE_SHARPNESS, LoopWeights, MeshError, ParameterError,
+    Subdivision, SubdivisionError, SubdivisionScheme, Surface,
 };
 use serde_json::Value;
 use std::collections::HashMap;
@@ -285,6 +285,57 @@ fn limit_positions_and_normals_are_those_of_opensubdiv() {
     println!("compared {compared:?}");
     assert!(worst < 1e-12, "{worst:e}");
     assert!(worst_angle < 1e-4, "{worst_angle:e}");
+}
+
+/// The table has limits at the vertices of all 36 faces, as of boundaries that are sharp. Without a rule for boundaries the 4 faces without a
+/// vertex at a boundary are drawn: at their 25 places each the limits are compared, and the other 32 faces have no points at all.
+#[test]
+fn without_a_rule_for_boundaries_the_faces_inside_have_the_limits_of_opensubdiv_and_others_no_points() {
+    let Some(table) = oracle("cc/edgenone.json") else {
+        return;
+    };
+    let control = control(&table);
+    assert_eq!(control.boundary, BoundaryRule::None);
+    let scheme = SubdivisionScheme::CatmullClark;
+    let surface = Subdivision::new(&control, settings(scheme, 8)).expect("a surface");
+    let mut uses: HashMap<[u32; 2], u32> = HashMap::new();
+    let edges = |corners: &[u32]| -> Vec<[u32; 2]> {
+        let ends = |k: usize| [corners[k], corners[(k + 1) % corners.len()]];
+        let sorted = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
+        (0..corners.len()).map(|k| sorted(ends(k))).collect()
+    };
+    let all = || control.mesh.faces.iter().flat_map(edges);
+    all().for_each(|edge| *uses.entry(edge).or_default() += 1);
+    let at_boundary: Vec<u32> = all().filter(|edge| uses[edge] == 1).flatten().collect();
+    let is_inside = |corners: &[u32]| !corners.iter().any(|vertex| at_boundary.contains(vertex));
+    let inside: Vec<u32> = (0..)
+        .zip(control.mesh.faces.iter())
+        .filter(|(_, corners)| is_inside(corners))
+        .map(|(face, _)| face)
+        .collect();
+    assert_eq!((inside.len(), control.mesh.faces.len()), (4, 36));
+    assert_eq!(surface.drawn_faces(), inside);
+    let last = list(&table["levels"]).last().expect("a level");
+    let (faces, places) = refined(&table, scheme);
+    let mut compared = HashMap::new();
+    for (corners, place) in faces.iter().zip(&places) {
+        for (&vertex, &at) in corners.iter().zip(&place.at) {
+            if !inside.contains(&place.face) {
+                let error = surface.face_coord(place.face, at[0], at[1]);
+                assert_eq!(error, Err(ParameterError::NotDrawn { face: place.face }));
+                continue;
+            }
+            let at = surface.face_coord(place.face, at[0], at[1]).expect("in the face");
+            let limit = DVec3::from_slice(&floats(&last["limit"][vertex as usize]));
+            let normal = DVec3::from_slice(&floats(&last["normal"][vertex as usize]));
+            for frame in [surface.frame(at), surface.drawn(at)] {
+                assert!(frame.position.distance(limit) < 1e-12 * largest(&control), "{at:?}");
+                assert!(angle(frame.normal, normal) < 1e-6, "{at:?}");
+            }
+            compared.insert(vertex, at);
+        }
+    }
+    assert_eq!(compared.len(), 100);
 }
 
 #[test]

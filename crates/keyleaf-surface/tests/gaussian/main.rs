@@ -10,6 +10,7 @@ mod oracle_tables;
 mod oracles;
 mod patches;
 mod products;
+mod random_products;
 mod refine;
 mod shaders;
 mod surface;

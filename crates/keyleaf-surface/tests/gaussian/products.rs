@@ -33,7 +33,7 @@ pub fn plain(mesh: &CovarianceMesh, scheme: SubdivisionScheme, isolation: u32) -
 }
 
 /// A tetrahedron-like bipyramid with n faces about each pole.
-fn bipyramid(n: u32) -> ControlMesh {
+pub fn bipyramid(n: u32) -> ControlMesh {
     let rim = |k: u32| {
         let angle = std::f64::consts::TAU * f64::from(k) / f64::from(n);
         DVec3::new(angle.cos(), angle.sin(), 0.1 * f64::from(k % 3))
@@ -47,7 +47,7 @@ fn bipyramid(n: u32) -> ControlMesh {
 }
 
 /// A prism over n corners: polygons with n corners, and creases about the upper one.
-fn prism(n: u32) -> ControlMesh {
+pub fn prism(n: u32) -> ControlMesh {
     let rim = |k: u32| {
         let angle = std::f64::consts::TAU * f64::from(k % n) / f64::from(n);
         DVec3::new(angle.cos(), angle.sin(), if k < n { -0.7 } else { 0.8 })

@@ -148,6 +148,7 @@ pub(crate) fn make(folder: &Path, file: &Path, entry: &SurfaceEntry, notes: &mut
         Some(surface) => surface,
         None => surface(&cage, &cage.shape, 0.0)?,
     };
+    notes.extend(faces_left_out(file, &cage.control, surface.as_ref()));
     let corners = corner_attributes(&cage.control, surface.as_ref());
     Ok(Made {
         corners,
@@ -225,6 +226,16 @@ fn motion(folder: &Path, control: &ControlMesh, motion: &Motion) -> Result<Optio
     }
     cage.add_groups(tracks).map_err(Failure::of("motion"))?;
     Ok(Some(cage))
+}
+
+/// Tells how many faces the rule for boundaries leaves out.
+fn faces_left_out(file: &Path, control: &ControlMesh, surface: &dyn Surface) -> Option<Note> {
+    let (faces, drawn) = (control.mesh.faces.len(), surface.topology().face_count() as usize);
+    let text = format!(
+        "faces at a boundary that are not drawn, since the boundary rule is none: {} of {faces}",
+        faces.saturating_sub(drawn)
+    );
+    (drawn < faces).then(|| Note::warning(file, text))
 }
 
 /// The attributes of the corners of the faces that the surface draws: none if it leaves out any.

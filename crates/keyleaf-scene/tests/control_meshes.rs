@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use keyleaf_scene::{ControlMeshOptions, ControlModel, read_control_mesh};
+use keyleaf_scene::{ControlMeshOptions, ControlModel, OpenOptions, ShapeName, open, read_control_mesh};
 use keyleaf_surface::{BoundaryRule, Creasing};
 use serde_json::Value;
 
@@ -146,6 +146,27 @@ fn every_shape_of_opensubdiv_has_the_vertices_faces_and_tags_that_opensubdiv_rea
             "{stem}"
         );
     }
+}
+
+/// Without a rule for boundaries a face at a boundary is control data: 4 of the 36 faces of OpenSubdiv's shape for that rule are drawn.
+#[test]
+fn opening_a_shape_without_a_rule_for_boundaries_tells_how_many_faces_are_left_out() {
+    let Some(shared) = shared() else { return };
+    let options = OpenOptions {
+        shape: Some(ShapeName::CatmullClark),
+        ..OpenOptions::default()
+    };
+    let file = shared.join("data/subd/osd_shapes/catmark_edgenone.obj");
+    let opened = open(&file, &options).unwrap();
+    let surface = &opened.surfaces[0].surface;
+    assert_eq!(surface.topology().face_count(), 4);
+    let drawn: Vec<u32> = (0..36)
+        .filter(|&face| surface.face_coord(face, 0.5, 0.5).is_ok())
+        .collect();
+    assert_eq!(drawn, [4, 13, 22, 31]);
+    let is_told = |text: &str| text.contains("not drawn, since the boundary rule is none: 32 of 36");
+    let note = opened.notes.iter().find(|note| is_told(&note.text)).expect("a note");
+    assert_eq!(note.file, file);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use super::ring::{Fan, Ring, Spoke};
 use super::sharpness::mean_of_others;
-use super::{BoundaryRule, ControlMesh, Creasing, INFINITE_SHARPNESS, SubdivisionError, SubdivisionScheme};
+use super::{BoundaryRule, ControlMesh, Creasing, INFINITE_SHARPNESS, MAX_FAN, SubdivisionError, SubdivisionScheme};
 use glam::DVec3;
 use keyleaf_key::{HalfEdge, RootPoint, Topology};
 use std::collections::HashMap;
@@ -45,6 +45,7 @@ impl Cage {
                 return Err(SubdivisionError::NoTriangle { face, corners });
             }
         }
+        check_fans(&topology)?;
         let mut cage = Self {
             edges: vec![0.0; topology.half_edge_count() as usize],
             beyond: Vec::new(),
@@ -319,6 +320,26 @@ fn number(known: &mut Vec<u32>, item: u32) -> u32 {
 
 fn sorted([a, b]: [u32; 2]) -> [u32; 2] {
     [a.min(b), a.max(b)]
+}
+
+/// Refuses vertices and polygons with very many faces or corners about them.
+fn check_fans(topology: &Topology) -> Result<(), SubdivisionError> {
+    let mut faces = vec![0u32; topology.vertex_count()];
+    for face in 0..topology.face_count() {
+        check_fan("face", face, "corners", topology.corner_count(face))?;
+        let corners = topology.vertices(face);
+        corners.iter().for_each(|&vertex| faces[vertex as usize] += 1);
+    }
+    (0..)
+        .zip(faces)
+        .try_for_each(|(vertex, found)| check_fan("vertex", vertex, "faces", found))
+}
+
+fn check_fan(what: &'static str, index: u32, of: &'static str, found: u32) -> Result<(), SubdivisionError> {
+    if found <= MAX_FAN {
+        return Ok(());
+    }
+    Err(SubdivisionError::TooManyAround { what, index, of, found })
 }
 
 fn check_sharpness(what: &'static str, index: usize, sharpness: f64) -> Result<(), SubdivisionError> {

@@ -66,6 +66,21 @@ pub enum SubdivisionError {
         /// How many corners it has.
         corners: u32,
     },
+    /// The rings of the faces about a vertex, and of the quads of a polygon, grow with the square of their number.
+    #[error(
+        "{what} {index} has {found} {of}; at most {} are possible in a subdivision surface: divide it among several",
+        super::MAX_FAN
+    )]
+    TooManyAround {
+        /// "vertex" or "face".
+        what: &'static str,
+        /// Which one.
+        index: u32,
+        /// "faces" or "corners".
+        of: &'static str,
+        /// How many it has.
+        found: u32,
+    },
     /// Without a rule for boundaries no face is left.
     #[error(
         "every face touches a boundary, and the boundary rule is none; choose a rule that keeps boundaries, or close the mesh"

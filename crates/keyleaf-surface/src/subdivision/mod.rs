@@ -85,6 +85,9 @@ pub(crate) const MAX_ENTRIES: usize = 1 << 28;
 /// The largest isolation: cells are then 2⁻¹⁶ of a face.
 pub(crate) const MAX_ISOLATION: u32 = 16;
 
+/// The most faces about a vertex, and the most corners of a polygon: memory and time grow with their square.
+pub(crate) const MAX_FAN: u32 = 1024;
+
 /// How much greater than at their samples the error of terminal patches may be; measured up to 2.5 times at valences to 32.
 pub(crate) const BETWEEN_SAMPLES: f64 = 2.5;
 
@@ -157,8 +160,8 @@ impl Subdivision {
     ///
     /// # Errors
     /// [`SubdivisionError`] if the faces make up no surface, a crease or corner names nothing or something twice, a sharpness is no finite
-    /// number from 0, a face does not suit the scheme, nothing is left to draw, the isolation is above 16 or the tables would be too
-    /// large.
+    /// number from 0, a face does not suit the scheme, a vertex has more than 1024 faces or a face as many corners, nothing is left to
+    /// draw, the isolation is above 16 or the tables would be too large.
     pub fn new(control: &ControlMesh, settings: SubdivisionSettings) -> Result<Self, SubdivisionError> {
         let SubdivisionSettings { scheme, isolation } = settings;
         let is_possible = isolation <= MAX_ISOLATION;

@@ -98,6 +98,40 @@ fn faces_must_suit_the_scheme_and_the_boundary_rule_must_leave_some() {
 }
 
 #[test]
+fn vertices_and_polygons_with_too_many_about_them_are_refused_at_once() {
+    let start = std::time::Instant::now();
+    let rim = |k: u32| DVec3::new(f64::from(k).cos(), f64::from(k).sin(), 0.0);
+    let cone = |n: u32| {
+        let positions = [DVec3::Z].into_iter().chain((0..n).map(rim)).collect();
+        ControlMesh::from(mesh(positions, (0..n).map(|k| [0, 1 + k, 1 + (k + 1) % n])))
+    };
+    let polygon = |n: u32| ControlMesh::from(mesh((0..n).map(rim).collect(), [(0..n).collect::<Vec<_>>()]));
+    for n in [1025, 60_000] {
+        for scheme in [CATMULL_CLARK, LOOP] {
+            assert_eq!(
+                error(&cone(n), scheme),
+                SubdivisionError::TooManyAround {
+                    what: "vertex",
+                    index: 0,
+                    of: "faces",
+                    found: n
+                }
+            );
+        }
+        assert_eq!(
+            error(&polygon(n), CATMULL_CLARK),
+            SubdivisionError::TooManyAround {
+                what: "face",
+                index: 0,
+                of: "corners",
+                found: n
+            }
+        );
+    }
+    assert!(start.elapsed().as_secs() < 20, "{:?}", start.elapsed());
+}
+
+#[test]
 fn faces_that_the_boundary_rule_leaves_out_are_told() {
     for scheme in [CATMULL_CLARK, LOOP] {
         let control = ControlMesh {

@@ -1,6 +1,6 @@
 //! How long surfaces take to make. Run with `cargo test --release -- --ignored --nocapture speed`.
 
-use crate::models::{LOOP, mesh, settings};
+use crate::models::{LOOP, disc, mesh, prism, settings};
 use glam::DVec3;
 use keyleaf_surface::{ControlMesh, PolygonMesh, Subdivision, SubdivisionScheme};
 use std::time::Instant;
@@ -59,6 +59,12 @@ fn speed() {
             SubdivisionScheme::CatmullClark,
         ),
         ("20,000 regular triangles", torus(100, 100, true), LOOP),
+        (
+            "two polygons of 1,000 corners",
+            prism(1000).mesh,
+            SubdivisionScheme::CatmullClark,
+        ),
+        ("a vertex of 1,000 faces", disc(1000, LOOP).mesh, LOOP),
     ] {
         let control = ControlMesh::from(polygons);
         let times = (0..5).map(|_| {

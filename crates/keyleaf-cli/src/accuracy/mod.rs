@@ -10,12 +10,14 @@
 //! | `report`, `series` | error against time for every setting, as a page |
 //! | `bases` | methods for basis functions × degree |
 //! | `isolation` | subdivision surfaces: isolation × preprocessing, memory, error, time (Komar, tables 4.1, 4.6, 4.7) |
+//! | `levels` | metrics, base grids and neighbours: leaves, triangles, their sizes (Khoury) |
 //! | `quadratic` | QAS, PN triangles and Loop surfaces of one control mesh |
 //! | `samples` | points of a surface, and how far the GPU is off there |
 
 mod bases;
 mod culling;
 mod isolation;
+mod levels;
 mod methods;
 mod psnr;
 mod quadratic;
@@ -32,10 +34,12 @@ use crate::{Outcome, table};
 use anyhow::Context;
 use clap::{Args, ValueEnum};
 use glam::UVec2;
+use keyleaf_report::report::Report;
+use keyleaf_report::{html, svg};
 use keyleaf_stage::{Loaded, LoadedObject, view_of};
 use serde::Serialize;
 use serde_json::json;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use studio::Setup;
 
 /// Measure what accuracy costs: error, triangles and milliseconds
@@ -50,7 +54,8 @@ use studio::Setup;
 ///
 /// The suite komar is for subdivision surfaces: isolation of extraordinary vertices × preprocessing, memory, error and milliseconds (tables
 /// 4.1, 4.6, 4.7). The suite qas is for control meshes of triangles: QAS, PN triangles and Loop surfaces of the first one of each
-/// scene, against the limit.
+/// scene, against the limit. The suite khoury is for any surface: the screen-space and the distance metric with as many triangles, base
+/// grids, and what it costs that nothing cracks.
 ///
 /// PSNR is of the picture against one with edges of half a pixel and nothing culled. Milliseconds are the median of a frame that
 /// updates and draws.
@@ -61,7 +66,8 @@ use studio::Setup;
   keyleaf accuracy scenes/torus.ron scenes/panels.ron --suite concheiro --table culling --size 1280x720
   keyleaf accuracy --suite concheiro --table bases --json
   keyleaf accuracy scenes/gaussian.ron --suite komar
-  keyleaf accuracy scenes/qas.ron --suite qas")]
+  keyleaf accuracy scenes/qas.ron --suite qas
+  keyleaf accuracy scenes/fox.ron --suite khoury")]
 pub struct Arguments {
     /// Scene files or models with surfaces of the kind that the suite is about
     #[arg(value_name = "SCENE", required_unless_present = "table")]
@@ -76,6 +82,9 @@ pub struct Arguments {
         conflicts_with = "suite"
     )]
     out: Option<PathBuf>,
+    /// A folder for the figures of the report, each as an .svg
+    #[arg(long, value_name = "FOLDER", requires = "out")]
+    figures: Option<PathBuf>,
     /// Few settings and samples: minutes instead of an hour on a software device
     #[arg(long, requires = "out")]
     quick: bool,
@@ -108,6 +117,8 @@ enum Suite {
     Komar,
     /// Quadratic approximation of subdivision surfaces (Boubekeur and Schlick 2007)
     Qas,
+    /// GPU tessellation with compute shaders (thesis, 2018)
+    Khoury,
 }
 
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq)]
@@ -191,6 +202,9 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
         if suite == Suite::Komar {
             done(isolation::table(&setup, loaded, &view)?)?;
         }
+        if suite == Suite::Khoury {
+            done(levels::table(&setup, loaded, &view)?)?;
+        }
         if suite == Suite::Qas {
             done(quadratic::table(&setup, loaded, &loaded.objects[0], &view)?)?;
         }
@@ -216,6 +230,9 @@ fn write_report(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
         anyhow::bail!("expected --out or --suite");
     };
     let csv = out.with_extension("csv");
+    if let Some(folder) = &arguments.figures {
+        std::fs::create_dir_all(folder).with_context(|| format!("{}: cannot be made", folder.display()))?;
+    }
     output::ensure_writable(out)?;
     output::ensure_writable(&csv)?;
     anyhow::ensure!(
@@ -243,8 +260,11 @@ fn write_report(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
             .push(scene.with_context(|| loaded.file.display().to_string())?);
     }
     report::add_scaling(&mut page);
-    output::write(out, keyleaf_report::html::page(&page).as_bytes())?;
+    output::write(out, html::page(&page).as_bytes())?;
     output::write(&csv, page.csv().as_bytes())?;
+    if let Some(folder) = &arguments.figures {
+        write_figures(folder, &page)?;
+    }
     if arguments.json {
         output::print_json(&page)?;
     } else {
@@ -259,6 +279,22 @@ fn write_report(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
     Ok(Outcome::Done)
 }
 
+/// Each figure of each scene, named after both.
+fn write_figures(folder: &Path, page: &Report) -> anyhow::Result<()> {
+    for scene in &page.scenes {
+        for figure in html::figures(scene) {
+            let words: Vec<String> = format!("{} {}", scene.name, figure.title)
+                .split(|c: char| !c.is_ascii_alphanumeric())
+                .filter(|word| !word.is_empty())
+                .map(str::to_ascii_lowercase)
+                .collect();
+            let file = folder.join(words.join("_")).with_extension("svg");
+            output::write(&file, svg::standalone(&figure.svg).as_bytes())?;
+        }
+    }
+    Ok(())
+}
+
 /// The scene with the surfaces that a suite is about.
 fn shown_of(suite: Suite, mut loaded: Loaded) -> anyhow::Result<Loaded> {
     let (is_wanted, what): (fn(&LoadedObject) -> bool, _) = match suite {
@@ -271,6 +307,7 @@ fn shown_of(suite: Suite, mut loaded: Loaded) -> anyhow::Result<Loaded> {
             quadratic::is_of_triangles,
             "control mesh of triangles; expected one for the suite qas",
         ),
+        Suite::Khoury => (|_| true, "surface"),
     };
     loaded.objects.retain(is_wanted);
     if suite == Suite::Qas {

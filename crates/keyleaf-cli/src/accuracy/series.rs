@@ -24,6 +24,8 @@ const QUICK: usize = 4;
 /// The edges at which everything else is compared.
 const COMPARED: f32 = 8.0;
 
+/// The deepest level of a key of 32 bits with 4 for the level (Khoury 2018, 3.3).
+const NARROW_LEVEL: u32 = 14;
 const GRIDS: [u32; 4] = [0, 1, 2, 3];
 const ISOLATIONS: [u32; 4] = [1, 2, 4, 8];
 const BASES: [(BasisMethod, &str); 4] = [
@@ -157,6 +159,13 @@ pub fn all(loaded: &Loaded, quick: bool) -> Vec<Series> {
         GRIDS
             .map(|k| (format!("4^{k}"), with(&|settings| gridded(settings, k))))
             .into(),
+    ));
+    all.push(of_settings(
+        "levels, edge 8 px",
+        vec![(
+            format!("{NARROW_LEVEL}: keys of 32 bits"),
+            with(&|settings| settings.max_level = settings.max_level.min(NARROW_LEVEL)),
+        )],
     ));
     all.push(of_settings(
         "neighbours, edge 8 px",

@@ -72,6 +72,24 @@ fn tessellations_are_compared_with_the_quadtree_at_the_same_psnr() {
 }
 
 #[test]
+fn khourys_screen_space_metric_makes_triangles_more_even_than_the_distance() {
+    let folder = Folder::new("accuracy-khoury");
+    let arguments = format!("accuracy {} --suite khoury --size 320x240", scene("fox"));
+    let report = report(&folder, &format!("{arguments} --frames 1 --json --quiet"));
+    let rows = report["tables"][0]["rows"].as_array().unwrap();
+    let of = |name: &str| -> Vec<&Value> { rows.iter().filter(|row| row["setting"] == name).collect() };
+    let (edges, distances) = (of("edge"), of("distance"));
+    assert_eq!((edges.len(), distances.len(), of("base grid").len()), (4, 4, 4));
+    let number = |row: &Value, column: &str| row[column].as_f64().unwrap();
+    let (edge, distance) = (edges[3], distances[3]);
+    let ratio = number(edge, "triangles") / number(distance, "triangles");
+    assert!((0.9..1.1).contains(&ratio), "as many triangles: {edge} {distance}");
+    assert!(number(edge, "area_variation") < 0.9 * number(distance, "area_variation"));
+    let neighbours = of("neighbours");
+    assert!(number(neighbours[0], "pairs") > 0.0 && number(neighbours[1], "pairs") == 0.0);
+}
+
+#[test]
 fn what_has_no_patches_is_refused() {
     let folder = Folder::new("accuracy-refused");
     for (arguments, expected) in [

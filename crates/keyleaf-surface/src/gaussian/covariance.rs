@@ -7,6 +7,10 @@ use glam::DVec3;
 /// The greatest ratio of the greatest to the least variance of a covariance.
 pub const CONDITION_LIMIT: f64 = 1e7;
 
+/// How much more the floor of variances is, of the greatest: entries are about as large as that, and so is what rounding does to the
+/// least one.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
 /// Nine numbers are a symmetric matrix if they are to this part of the largest.
 const SYMMETRY: f64 = 1e-6;
 
@@ -72,7 +76,7 @@ impl Covariance {
         match Self::new(matrix) {
             Ok(covariance) => Ok((covariance, false)),
             Err(CovarianceDefect::Condition { greatest, .. }) => {
-                let floor = greatest / CONDITION_LIMIT;
+                let floor = greatest * (1.0 / CONDITION_LIMIT + ROUNDING);
                 Ok((Self(matrix.eigen().map(|variance| variance.max(floor))), true))
             }
             Err(defect) => Err(defect),

@@ -8,8 +8,11 @@ use encase::ShaderType;
 use glam::DVec3;
 use keyleaf_key::{Place, RootPoint, Topology};
 
-/// The rounding error of a weighted sum of f32 positions, in units of the largest coordinate: 16 · 2⁻²⁴.
-pub const POSITION_ERROR: f64 = 16.0 / 16_777_216.0;
+/// 2⁻²⁴: half a unit in the last place of an f32 in 1..2.
+pub const F32_ROUNDING: f64 = 1.0 / 16_777_216.0;
+
+/// The rounding error of a weighted sum of f32 positions, in units of the largest coordinate.
+pub const POSITION_ERROR: f64 = 16.0 * F32_ROUNDING;
 
 /// Polygons with their centres and normals: what flat and displaced meshes are made of.
 #[derive(Clone, Debug)]

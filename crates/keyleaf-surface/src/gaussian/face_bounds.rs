@@ -3,7 +3,7 @@
 use super::bound::{MeanBounds, Whole, of_patches};
 use super::dual_patches::DualPatches;
 use super::lanes::{Lanes, Net, Square};
-use super::lanes_of_triangle::Triangle;
+use super::lanes_of_triangle::BARYCENTRIC;
 use crate::SubdivisionScheme;
 use crate::root_bound::RootBound;
 use crate::subdivision::bezier::Slopes;
@@ -20,11 +20,6 @@ const CUTS_FOR_ANY: usize = 1000;
 /// How many times as large as what has been found anything may be on a patch without bounds. Only precisions that are positive definite
 /// by a hair, or not at all, leave one.
 const WITHOUT_BOUNDS: f64 = 8.0;
-
-/// Along the second and the third barycentric coordinate.
-const BARYCENTRIC: Triangle = Triangle {
-    directions: [[-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]],
-};
 
 /// Bounds of the roots of a face, taken alone, and of all of it.
 pub struct FaceBounds {

@@ -158,6 +158,47 @@ impl<const N: usize> Lanes<N> {
         determinants
     }
 
+    /// The traces of q̂.
+    pub fn traces(&self) -> [f64; N] {
+        let [xx, _, _, yy, _, zz, ..] = &self.0;
+        std::array::from_fn(|k| xx[k] + yy[k] + zz[k])
+    }
+
+    /// The lengths of q̄ − q̂ `mean`.
+    pub fn residuals(&self, mean: DVec3) -> [f64; N] {
+        let [xx, xy, xz, yy, yz, zz, x, y, z] = &self.0;
+        std::array::from_fn(|k| {
+            let dx = x[k] - (xx[k] * mean.x + xy[k] * mean.y + xz[k] * mean.z);
+            let dy = y[k] - (xy[k] * mean.x + yy[k] * mean.y + yz[k] * mean.z);
+            let dz = z[k] - (xz[k] * mean.x + yz[k] * mean.y + zz[k] * mean.z);
+            (dx * dx + dy * dy + dz * dz).sqrt()
+        })
+    }
+
+    /// The least eigenvalues of q̂ from below, at most by a quarter, by Samuelson's inequality for their reciprocals; 0 where q̂ is not
+    /// positive definite.
+    pub fn least_eigenvalues(&self) -> [f64; N] {
+        let [xx, xy, xz, yy, yz, zz, ..] = &self.0;
+        std::array::from_fn(|k| {
+            let trace = xx[k] + yy[k] + zz[k];
+            let [z, y, x] = [
+                xx[k] * yy[k] - xy[k] * xy[k],
+                xx[k] * zz[k] - xz[k] * xz[k],
+                yy[k] * zz[k] - yz[k] * yz[k],
+            ];
+            let minors = x + y + z;
+            let beside = xz[k] * (xy[k] * yz[k] - xz[k] * yy[k]) - yz[k] * (xx[k] * yz[k] - xy[k] * xz[k]);
+            let determinant = zz[k] * z + beside;
+            let root = (4.0 * minors * minors - 12.0 * determinant * trace).max(0.0).sqrt();
+            let is_definite = determinant > 0.0 && minors > 0.0 && trace > 0.0;
+            if is_definite {
+                3.0 * determinant / (minors + root)
+            } else {
+                0.0
+            }
+        })
+    }
+
     /// The longest q̄ − `from`.
     pub fn longest(&self, from: DVec3) -> f64 {
         let [.., x, y, z] = &self.0;

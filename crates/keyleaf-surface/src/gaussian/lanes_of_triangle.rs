@@ -8,6 +8,11 @@ pub struct Triangle {
     pub directions: [[f64; 3]; 2],
 }
 
+/// Along the second and the third barycentric coordinate.
+pub const BARYCENTRIC: Triangle = Triangle {
+    directions: [[-1.0, 1.0, 0.0], [-1.0, 0.0, 1.0]],
+};
+
 /// Control points of degrees 4, 3 and 2.
 const COUNTS: [usize; 3] = [15, 10, 6];
 

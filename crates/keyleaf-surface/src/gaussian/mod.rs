@@ -42,6 +42,7 @@
 //! | `bound`, `centred` | bounds of patches and of their parts |
 //! | `lanes`, `lanes_of_triangle` | their control points, number by number |
 //! | `dual_patches`, `terminal`, `face_bounds` | the patches of a surface, how far they are off, bounds of faces |
+//! | `rounding` | what f32 loses of the means of a surface |
 //! | `surface`, `tables` | [`GaussianProduct`], and what the GPU reads |
 //!
 //! ```
@@ -67,6 +68,7 @@ mod face_bounds;
 mod lanes;
 mod lanes_of_triangle;
 mod patch;
+mod rounding;
 mod solve;
 mod surface;
 mod symmetric;

@@ -4,8 +4,10 @@ use super::covariance_mesh::CovarianceMesh;
 use super::dual::{Dual, DualFrame, MeanJet};
 use super::dual_patches::{DualPatches, DualVertices};
 use super::face_bounds::FaceBounds;
+use super::lanes::Square;
+use super::lanes_of_triangle::BARYCENTRIC;
 use super::symmetric::Symmetric3;
-use super::{tables, terminal};
+use super::{rounding, tables, terminal};
 use crate::direction::frame_normal;
 use crate::mesh::unit_or_up;
 use crate::root_bound::RootBound;
@@ -100,6 +102,8 @@ pub struct GaussianProduct {
     terminal_error: f64,
     /// Of the limit surface, as far as it was asked for.
     exact: ExactCells<Dual>,
+    /// What f32 loses of a mean, from above.
+    pub(super) rounding: f64,
 }
 
 impl GaussianProduct {
@@ -129,6 +133,10 @@ impl GaussianProduct {
         let mut surface = Self {
             settings,
             terminal_error: terminal::error(&patches, &dual.errors, vertices.centre),
+            rounding: match scheme {
+                SubdivisionScheme::CatmullClark => rounding::error(&Square, &patches, settings.solver),
+                SubdivisionScheme::Loop(_) => rounding::error(&BARYCENTRIC, &patches, settings.solver),
+            },
             frames: ring_frames(&neighbourhoods, &cage.positions, &precisions),
             normals: Vec::new(),
             bounds: Vec::new(),
@@ -176,14 +184,6 @@ impl GaussianProduct {
             dv: du * s[1] + dv * t[1],
             normal: frame_normal(du, dv, jet.second[1], self.normals[at.face as usize]),
         }
-    }
-
-    /// The greatest distance of a corner of a patch from its centre, twice.
-    pub(super) fn longest_patch(&self) -> f64 {
-        let patches = 0..self.patches.frames.len();
-        let corners = patches.flat_map(|patch| self.patches.corners().iter().map(move |&corner| (patch, corner)));
-        let reach = corners.filter_map(|(patch, corner)| Some(self.patches.offset(patch, corner)?.length()));
-        2.0 * reach.fold(0.0, f64::max)
     }
 
     /// In the parameters of the domain, and these by the face's.

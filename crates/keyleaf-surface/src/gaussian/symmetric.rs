@@ -89,8 +89,12 @@ impl Symmetric3 {
 
     /// The Frobenius norm, which bounds the absolute values of the eigenvalues.
     pub fn norm(self) -> f64 {
+        self.norm_squared().sqrt()
+    }
+
+    pub(super) fn norm_squared(self) -> f64 {
         let off_diagonal = self.xy * self.xy + self.xz * self.xz + self.yz * self.yz;
-        (self.xx * self.xx + self.yy * self.yy + self.zz * self.zz + 2.0 * off_diagonal).sqrt()
+        self.xx * self.xx + self.yy * self.yy + self.zz * self.zz + 2.0 * off_diagonal
     }
 
     /// Tᵀ S T.

@@ -19,9 +19,6 @@ use glam::DVec3;
 /// Entries of the frame of a patch.
 const FRAME: usize = 3;
 
-/// The rounding error of a mean in f32, in units of the box of a patch: measured up to 38 · 2⁻²⁴, see [`gaussian`](super).
-const MEAN_ERROR: f64 = 64.0 / 16_777_216.0;
-
 /// Entries a patch.
 pub fn entries_of_patch(scheme: SubdivisionScheme) -> usize {
     let points = scheme.control_points();
@@ -37,7 +34,7 @@ pub fn tables(surface: &GaussianProduct, origin: DVec3) -> SurfaceTables {
     });
     let (low, high) = surface.bounding_box();
     let largest = (low - origin).abs().max((high - origin).abs()).max_element();
-    let rounding = POSITION_ERROR * largest + MEAN_ERROR * surface.longest_patch();
+    let rounding = POSITION_ERROR * largest + surface.rounding;
     let own = patches.frames.iter().zip(patches.controls.chunks_exact(patches.size));
     SurfaceTables {
         params: words.params(

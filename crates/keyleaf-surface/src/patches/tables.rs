@@ -22,7 +22,7 @@ use super::power_form::PowerForm;
 use super::span::Span;
 use super::{PatchKind, Patches};
 use crate::direction::round_up;
-use crate::mesh::vector_entry;
+use crate::mesh::{F32_ROUNDING, vector_entry};
 use crate::surface::uniform;
 use crate::{Surface, SurfaceTables};
 use encase::ShaderType;
@@ -34,9 +34,6 @@ const COLLAPSED: u32 = 1 << 31;
 
 const WORDS_OF_FACE: usize = 4;
 const WORDS_OF_HALF_EDGE: usize = 7;
-
-/// 2⁻²⁴: half a unit in the last place of an f32 in 1..2.
-const F32_ROUNDING: f64 = 1.0 / 16_777_216.0;
 
 /// The uniform `surface`.
 #[derive(ShaderType)]

@@ -12,6 +12,7 @@ mod patches;
 mod products;
 mod random_products;
 mod refine;
+mod rounding;
 mod shaders;
 mod surface;
 mod surface_bounds;

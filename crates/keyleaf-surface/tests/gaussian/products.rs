@@ -67,7 +67,7 @@ pub fn prism(n: u32) -> ControlMesh {
 }
 
 /// Disks turned anyhow at the vertices.
-fn with_disks(control: ControlMesh, condition: f64, turn: f64, random: &mut Random) -> CovarianceMesh {
+pub fn with_disks(control: ControlMesh, condition: f64, turn: f64, random: &mut Random) -> CovarianceMesh {
     let common = random.rotation(2.0);
     let covariances: Vec<_> = control
         .mesh

@@ -35,38 +35,41 @@ pub fn tables(surface: &GaussianProduct, origin: DVec3) -> SurfaceTables {
     let (low, high) = surface.bounding_box();
     let largest = (low - origin).abs().max((high - origin).abs()).max_element();
     let rounding = POSITION_ERROR * largest + surface.rounding;
-    let own = patches.frames.iter().zip(patches.controls.chunks_exact(patches.size));
+    let mut floats = Vec::with_capacity(4 * (patches.frames.len() * entries + surface.normals.len()));
+    for (own, controls) in patches.frames.iter().zip(patches.controls.chunks_exact(patches.size)) {
+        push_frame(&mut floats, &own.frame, origin);
+        push_controls(&mut floats, controls);
+    }
+    floats.extend(surface.normals.iter().flat_map(|&normal| vector_entry(normal)));
     SurfaceTables {
         params: words.params(
             patches.frames.len() * entries,
             rounding + 2.0 * surface.terminal_error(),
         ),
-        a: own
-            .flat_map(|(own, controls)| frame_floats(&own.frame, origin).chain(control_floats(controls)))
-            .chain(surface.normals.iter().flat_map(|&normal| vector_entry(normal)))
-            .collect(),
+        a: floats,
         b: words.words,
         heights: None,
         height_bounds: None,
     }
 }
 
-fn frame_floats(frame: &DualFrame, origin: DVec3) -> impl Iterator<Item = f32> {
+fn push_frame(floats: &mut Vec<f32>, frame: &DualFrame, origin: DVec3) {
     let centre = (frame.centre - origin).to_array();
-    let columns = [frame.axes.x_axis, frame.axes.y_axis, frame.axes.z_axis];
-    let entry = |(column, centre): (DVec3, f64)| [column.x, column.y, column.z, centre];
-    columns.into_iter().zip(centre).flat_map(entry).map(|x| x as f32)
+    for (column, centre) in [frame.axes.x_axis, frame.axes.y_axis, frame.axes.z_axis]
+        .into_iter()
+        .zip(centre)
+    {
+        floats.extend([column.x, column.y, column.z, centre].map(|x| x as f32));
+    }
 }
 
-fn control_floats(controls: &[Dual]) -> impl Iterator<Item = f32> + '_ {
-    let first = controls.iter().flat_map(|control| {
+fn push_controls(floats: &mut Vec<f32>, controls: &[Dual]) {
+    for control in controls {
         let [xx, xy, xz, yy, yz, zz, x, y, _] = control.to_array();
-        [xx, xy, xz, yy, yz, zz, x, y]
-    });
-    let padding = controls.len().next_multiple_of(4) - controls.len();
-    let last = controls.iter().map(|control| control.information.z);
-    first
-        .chain(last)
-        .chain(std::iter::repeat_n(0.0, padding))
-        .map(|x| x as f32)
+        floats.extend([xx, xy, xz, yy, yz, zz, x, y].map(|x| x as f32));
+    }
+    for four in controls.chunks(4) {
+        let last = |k: usize| four.get(k).map_or(0.0, |control| control.information.z);
+        floats.extend([0, 1, 2, 3].map(|k| last(k) as f32));
+    }
 }

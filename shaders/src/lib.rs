@@ -10,10 +10,12 @@
 //! assert!(!source.contains("fn surface_point"));
 //! ```
 
+mod located;
 #[cfg(feature = "reload")]
 pub mod reload;
 mod table;
 
+pub use located::{label, located};
 pub use table::FILES;
 
 /// Why a module could not be composed.

@@ -193,7 +193,8 @@ fn sampled_metrics_agree_with_their_twins_up_to_the_rounding_of_the_samples() {
                     let sample = match metric {
                         Metric::FlatTest(Threshold::Units(_)) => {
                             let angle = SAMPLE_ERROR * largest / length;
-                            4.0 * (2.0 * metric.size().of(surface.as_ref(), &place)).sqrt() * angle + angle * angle
+                            4.0 * (2.0 * metric.size(settings.base_grid).of(surface.as_ref(), &place)).sqrt() * angle
+                                + angle * angle
                         }
                         _ => SAMPLE_ERROR * largest,
                     };

@@ -5,7 +5,7 @@ use keyleaf::inspect::Inspector;
 use keyleaf::map::MapPipeline;
 use keyleaf::shading::{Atmosphere, Channel, Material, Overlay, Tint};
 use keyleaf::{BackFaces, Balance, Kind, modules};
-use keyleaf_shaders::{FILES, compose, dependencies};
+use keyleaf_shaders::{FILES, compose, dependencies, label, located, source};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use std::collections::BTreeSet;
 
@@ -212,5 +212,41 @@ fn the_update_without_neighbour_test_has_no_table() {
             let found = composed.iter().find(|file| file.contains("table_"));
             assert_eq!(found, None, "{}", module.name);
         }
+    }
+}
+
+#[test]
+fn what_the_device_complains_of_names_the_file_and_its_line() {
+    let gpu = crate::gpu::gpu();
+    let all = kinds();
+    let kind = all
+        .iter()
+        .find(|kind| (kind.surface, kind.metric) == ("surfaces/mesh.wgsl", "metrics/edge.wgsl"));
+    let measure = modules(kind.unwrap());
+    let roots = measure
+        .iter()
+        .find(|module| module.name == "measure")
+        .unwrap()
+        .files
+        .clone();
+    let good = compose(&roots).unwrap();
+    let line = 1 + source("metrics/edge.wgsl")
+        .unwrap()
+        .lines()
+        .position(|line| line.contains("return bound.size"))
+        .unwrap();
+    // One that does not parse, one whose types do not fit.
+    for broken in ["return bound.size size;", "return leaf.level;"] {
+        let scope = gpu.device.push_error_scope(keyleaf::wgpu::ErrorFilter::Validation);
+        gpu.device.create_shader_module(keyleaf::wgpu::ShaderModuleDescriptor {
+            label: Some(&label(&roots)),
+            source: keyleaf::wgpu::ShaderSource::Wgsl(good.replace("return bound.size;", broken).into()),
+        });
+        let error = pollster::block_on(scope.pop()).expect("an error").to_string();
+        let found = located(&error);
+        assert!(
+            found.contains(&format!("metrics/edge.wgsl:{line}:")),
+            "{error}\n{found}"
+        );
     }
 }

@@ -96,7 +96,11 @@ impl World {
         if node.level >= settings.max_level.min(31 - settings.base_grid) {
             return 0.0;
         }
-        self.wish_of_size(view, node, settings.metric.size().of(self.surface.as_ref(), node))
+        self.wish_of_size(
+            view,
+            node,
+            settings.metric.size(settings.base_grid).of(self.surface.as_ref(), node),
+        )
     }
 
     /// The same for a size that the metric did not give.

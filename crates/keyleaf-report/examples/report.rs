@@ -61,7 +61,7 @@ fn point((name, at_one, error_at_one, cost): (&str, f64, f64, f64), i: usize) ->
         leaves,
         triangles,
         bytes: (120.0 * (leaves * 1.3).max(65536.0).log2().ceil().exp2()) as u64,
-        starved: 0.0,
+        threshold_factor: 1.0,
         errors: Errors {
             object: both(error * 6e-4),
             normal: both(2.0 * error.sqrt()),

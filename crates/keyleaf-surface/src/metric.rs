@@ -26,8 +26,11 @@ pub enum MetricSize {
     Edge,
     /// √2 · 2^−level (Khoury 2.1).
     Distance,
-    /// `SurfaceBound::deviation`. Object units.
-    Deviation,
+    /// `SurfaceBound::deviation` of a leaf that is drawn as 4^grid triangles, or what its size says of it. Object units.
+    Deviation {
+        /// The exponent.
+        grid: u32,
+    },
     /// [`Edge`](Self::Edge), times a factor beside open boundaries (Concheiro 6.10).
     Boundary(f64),
     /// The length of the curves of the root, over 2^level (Concheiro 6.8). Object units.
@@ -43,6 +46,10 @@ pub enum MetricSize {
     /// Half the length of the longest edge (Concheiro 3.2.2). Object units.
     LengthTest,
 }
+
+/// Times [`SurfaceBound::size`](crate::SurfaceBound::size): how far a point of a flat triangle is from the surface over it, at most. By
+/// weights (1 − c)/2, (1 − c)/2, c of the corners it is (1 − c)(1 + 2 c).
+const FARTHEST: f64 = 1.125;
 
 /// A leaf whose surface is sampled at quarters of its legs.
 struct Samples<'a> {
@@ -140,7 +147,10 @@ impl MetricSize {
         match self {
             Self::Edge => surface.bound(leaf).size,
             Self::Distance => std::f64::consts::SQRT_2 * diamond::level_scale(leaf.level),
-            Self::Deviation => surface.bound(leaf).deviation,
+            Self::Deviation { grid } => {
+                let bound = surface.bound(leaf);
+                bound.deviation.min(FARTHEST * bound.size * f64::from(1u32 << grid))
+            }
             Self::Boundary(factor) => {
                 let is_open = topology.twin(leaf.face, leaf.root).is_none();
                 let size = surface.bound(leaf).size;

@@ -342,7 +342,7 @@ fn checked<T>(gpu: &Headless, make: impl FnOnce() -> anyhow::Result<T>) -> anyho
     let refused = pollster::block_on(validation.pop());
     let too_large = pollster::block_on(memory.pop());
     if let Some(error) = refused {
-        bail!("{error}");
+        bail!("{}", keyleaf_shaders::located(&error.to_string()));
     }
     if let Some(error) = too_large {
         return Err(anyhow::anyhow!("{error}")).context("the device has not enough memory");

@@ -8,6 +8,7 @@ use crate::binding::{self, Binding};
 use crate::colour_texture::colour_texture;
 use crate::grid::GridBuffers;
 use crate::layout::arguments;
+use crate::module::shader_module;
 use crate::passes::Kind;
 use crate::settings::BackFaces;
 use crate::shading::{Background, Channel, Shading};
@@ -15,7 +16,6 @@ use crate::surface_buffers::surface_layout;
 use crate::{KeyleafError, Quadtree, View};
 use encase::ShaderType;
 use glam::{Vec2, Vec3};
-use keyleaf_shaders::compose;
 use wgpu::util::DeviceExt;
 
 /// What the pass renders to.
@@ -80,10 +80,7 @@ impl LeafPipeline {
     pub fn new(device: &wgpu::Device, kind: &Kind, channel: Channel, target: Target) -> Result<Self, KeyleafError> {
         let mut files = channel.files();
         files.push(kind.surface);
-        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("keyleaf.draw"),
-            source: wgpu::ShaderSource::Wgsl(compose(&files)?.into()),
-        });
+        let shader = shader_module(device, &files)?;
         let leaf_layout = binding::layout(
             device,
             "keyleaf.draw.leaves",
@@ -307,10 +304,7 @@ impl Sky {
     /// # Errors
     /// [`KeyleafError::Compose`] if a shader file is missing.
     pub fn new(device: &wgpu::Device, target: Target) -> Result<Self, KeyleafError> {
-        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("keyleaf.sky"),
-            source: wgpu::ShaderSource::Wgsl(compose(&Self::FILES)?.into()),
-        });
+        let shader = shader_module(device, &Self::FILES)?;
         let layout = binding::layout(
             device,
             "keyleaf.sky",

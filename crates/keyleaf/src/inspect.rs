@@ -5,13 +5,13 @@ use crate::binding::{self, Binding};
 use crate::draw::write_uniform;
 use crate::grid::BaseGrid;
 use crate::layout::groups_for;
+use crate::module::shader_module;
 use crate::passes::Kind;
 use crate::read_back::map;
 use crate::surface_buffers::surface_layout;
 use crate::{KeyleafError, Quadtree};
 use glam::{UVec4, Vec3};
 use keyleaf_key::RootPoint;
-use keyleaf_shaders::compose;
 use wgpu::util::DeviceExt;
 
 /// Position and derivatives as the GPU computes them.
@@ -59,10 +59,7 @@ impl Inspector {
         let surface = surface_layout(device, kind.surface)?;
         let make = |file: &'static str, entry: &str, bindings: &[Binding]| -> Result<_, KeyleafError> {
             let label = format!("keyleaf.{entry}");
-            let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                label: Some(&label),
-                source: wgpu::ShaderSource::Wgsl(compose(&[file, kind.surface])?.into()),
-            });
+            let module = shader_module(device, &[file, kind.surface])?;
             let layout = binding::layout(device, &label, wgpu::ShaderStages::COMPUTE, bindings);
             let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(&label),

@@ -60,6 +60,7 @@ pub mod headless;
 pub mod inspect;
 pub mod layout;
 pub mod map;
+mod module;
 mod passes;
 mod posing;
 mod quadtree;

@@ -3,12 +3,12 @@
 
 use crate::binding::{self, Binding};
 use crate::draw::{Target, write_uniform};
+use crate::module::shader_module;
 use crate::passes::Kind;
 use crate::surface_buffers::surface_layout;
 use crate::view::Frame;
 use crate::{KeyleafError, Quadtree, Settings, View};
 use encase::ShaderType;
-use keyleaf_shaders::compose;
 
 /// The pipeline of one kind of surface and target. Device-long.
 #[derive(Debug)]
@@ -27,10 +27,7 @@ impl MapPipeline {
     /// [`KeyleafError::Compose`] if a shader file is missing.
     pub fn new(device: &wgpu::Device, kind: &Kind, target: Target) -> Result<Self, KeyleafError> {
         let [file] = Self::FILES;
-        let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some("keyleaf.map"),
-            source: wgpu::ShaderSource::Wgsl(compose(&[file, kind.surface])?.into()),
-        });
+        let shader = shader_module(device, &[file, kind.surface])?;
         let bindings = [Binding::Uniform, Binding::Read, Binding::Read];
         let layout = binding::layout(device, "keyleaf.map", wgpu::ShaderStages::VERTEX, &bindings);
         let surface = surface_layout(device, kind.surface)?;

@@ -2,9 +2,9 @@
 
 use crate::KeyleafError;
 use crate::binding::{self, Binding};
+use crate::module::shader_module;
 use crate::settings::{BackFaces, Balance};
 use crate::surface_buffers::surface_layout;
-use keyleaf_shaders::compose;
 
 use Binding::{Absent, Read, Uniform, Write};
 
@@ -201,10 +201,7 @@ impl Passes {
 
 fn stage(device: &wgpu::Device, module: &Module, surface: &wgpu::BindGroupLayout) -> Result<Stage, KeyleafError> {
     let label = format!("keyleaf.{}", module.name);
-    let shader = device.create_shader_module(wgpu::ShaderModuleDescriptor {
-        label: Some(&label),
-        source: wgpu::ShaderSource::Wgsl(compose(&module.files)?.into()),
-    });
+    let shader = shader_module(device, &module.files)?;
     let layout = binding::layout(device, &label, wgpu::ShaderStages::COMPUTE, module.bindings);
     let groups = if module.uses_surface {
         vec![Some(&layout), Some(surface)]

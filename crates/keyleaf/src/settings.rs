@@ -21,8 +21,8 @@ pub enum Metric {
         /// The factor, in world units: doubling it adds a level.
         factor: f32,
     },
-    /// Screen space: no drawn triangle farther from the surface than so many pixels, by bounds of second derivatives. Flat parts stay
-    /// coarse. Surfaces without such bounds (height fields, noise) count with their edges.
+    /// Screen space: no drawn triangle farther from the surface than so many pixels, by bounds of second derivatives, and of first ones
+    /// where those are large. Flat parts stay coarse. Surfaces without such bounds (height fields, noise) count with their edges.
     Deviation {
         /// The target in pixels.
         pixels: f32,
@@ -117,12 +117,12 @@ impl Metric {
         }
     }
 
-    /// The twin in f64 of what the shader computes of a leaf.
-    pub fn size(&self) -> MetricSize {
+    /// The twin in f64 of what the shader computes of a leaf that is drawn as 4^`base_grid` triangles.
+    pub fn size(&self, base_grid: u32) -> MetricSize {
         match self {
             Self::Edge { .. } => MetricSize::Edge,
             Self::Distance { .. } => MetricSize::Distance,
-            Self::Deviation { .. } => MetricSize::Deviation,
+            Self::Deviation { .. } => MetricSize::Deviation { grid: base_grid },
             Self::Boundary { .. } => MetricSize::Boundary(self.parameter().into()),
             Self::LocalArea { .. } => MetricSize::LocalArea,
             Self::LinearApproximation { .. } => MetricSize::LinearApproximation,

@@ -133,7 +133,7 @@ pub fn scene(
             let point = measuring
                 .point(name, label, changed)
                 .with_context(|| format!("{name} {label}"))?;
-            let is_starved = point.starved > 0.0;
+            let is_starved = point.threshold_factor > 1.0;
             found.push(point);
             bar.inc(1);
             if is_starved && *is_refining {

@@ -87,7 +87,7 @@ pub(super) fn points(scene: &SceneReport, caption: &str) -> String {
         "leaves",
         "triangles",
         "memory",
-        "starved",
+        "threshold",
         "distance / diagonal",
         "rms",
         "pixels",
@@ -98,8 +98,10 @@ pub(super) fn points(scene: &SceneReport, caption: &str) -> String {
         "SSIM",
     ];
     let rows: Vec<Vec<String>> = scene.points.iter().map(row).collect();
-    let caption =
-        format!("Bold: not beaten in time and at least one error. Errors are the greatest unless rms. {caption}");
+    let caption = format!(
+        "Bold: not beaten in time and at least one error. Errors are the greatest unless rms. Threshold: the factor by which full \
+             buffers raised it, so that the setting was not reached. {caption}"
+    );
     let clock = format!(" Times by {}.", scene.clock.text());
     table(&head, &rows, |i| fronts.contains(&i), &(caption + &clock))
 }
@@ -122,8 +124,8 @@ fn row(point: &Point) -> Vec<String> {
         thousands(point.leaves),
         thousands(point.triangles),
         bytes(point.bytes as f64),
-        if point.starved > 0.0 {
-            thousands(point.starved)
+        if point.threshold_factor > 1.0 {
+            format!("× {}", figure(point.threshold_factor))
         } else {
             String::new()
         },

@@ -4,7 +4,7 @@ use super::{Point, Quantity, Report, SceneReport};
 use crate::error::Measure;
 
 const HEAD: &str = "device,software,backend,driver,commit,profile,scene,camera,width,height,series,setting,ms,ms_low,ms_high,leaves,\
-triangles,bytes,starved,object_max,object_rms,normal_max_degrees,normal_rms_degrees,pixels_max,pixels_rms,silhouette_max,\
+triangles,bytes,threshold_factor,object_max,object_rms,normal_max_degrees,normal_rms_degrees,pixels_max,pixels_rms,silhouette_max,\
 silhouette_rms,psnr_db,ssim,in_front,passes_ms";
 
 impl Report {
@@ -51,7 +51,7 @@ impl Report {
             vec![point.series.clone(), point.label.clone(), point.ms.to_string()],
             vec![maybe(point.spread.map(|s| s.low)), maybe(point.spread.map(|s| s.high))],
             vec![point.leaves.to_string(), point.triangles.to_string()],
-            vec![point.bytes.to_string(), point.starved.to_string()],
+            vec![point.bytes.to_string(), point.threshold_factor.to_string()],
             both(errors.object).into(),
             both(errors.normal).into(),
             both(errors.pixels).into(),

@@ -69,8 +69,8 @@ pub struct Point {
     pub triangles: f64,
     /// Bytes of all buffers.
     pub bytes: u64,
-    /// Splits for which the buffers had no room: if any, the setting was not reached.
-    pub starved: f64,
+    /// The factor by which full buffers raised the threshold: above 1 the setting was not reached.
+    pub threshold_factor: f64,
     /// Errors, as far as they were measured.
     pub errors: Errors,
 }
@@ -135,7 +135,7 @@ impl Point {
             leaves: run.leaves.p50,
             triangles: run.triangles.p50,
             bytes: run.bytes(),
-            starved: run.starved.max,
+            threshold_factor: run.figures.get("threshold_factor_max").copied().unwrap_or(1.0),
             errors: Errors::default(),
         }
     }

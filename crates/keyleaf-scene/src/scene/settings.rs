@@ -81,7 +81,8 @@ pub enum Metric {
         #[serde(default = "Metric::default_factor")]
         factor: f64,
     },
-    /// When the surface is farther than this from the drawn triangles, by bounds of its second derivatives: flat parts stay coarse.
+    /// When the surface is farther than this from the drawn triangles, by bounds of its second derivatives, and of first ones where those
+    /// are large: flat parts stay coarse.
     /// For Bézier and NURBS surfaces and flat meshes; height fields and noise count with the length of their edges.
     Deviation {
         /// Pixels, above 0; default 1.

@@ -89,6 +89,7 @@ fn bounds_hold_the_drawn_surface_and_are_nested() {
                 let flat: DVec3 = weighted.map(|(point, w)| point * w).sum();
                 let off = model.approximate(leaf.at(a, b)).position.distance(flat);
                 assert!(off <= bound.deviation + room, "{name}: {off} {bound:?} {leaf:?}");
+                assert!(off <= 1.125 * bound.size + room, "{name}: {off} {bound:?} {leaf:?}");
             }
         }
     }

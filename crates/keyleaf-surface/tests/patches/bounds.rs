@@ -132,6 +132,7 @@ fn sizes_bound_hypotenuse_and_median_and_deviations_flat_triangles() {
             let flat = inside(corners, [1.0 - a_weight - b_weight, a_weight, b_weight]);
             let off = model.point(leaf.at(a, b)).distance(flat);
             assert!(off <= bound.deviation + ERROR, "{name}: {off} {bound:?} {leaf:?}");
+            assert!(off <= 1.125 * bound.size + ERROR, "{name}: {off} {bound:?} {leaf:?}");
         }
     });
 }

@@ -91,6 +91,7 @@ fn bounds_hold_the_drawn_surface_and_are_nested() {
                     .sum();
                 let off = drawn(leaf.at(a, b)).distance(flat);
                 assert!(off <= bound.deviation + ERROR, "{name}: {off} {bound:?} {leaf:?}");
+                assert!(off <= 1.125 * bound.size + ERROR, "{name}: {off} {bound:?} {leaf:?}");
             }
         }
     }

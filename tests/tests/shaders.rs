@@ -230,13 +230,16 @@ fn what_the_device_complains_of_names_the_file_and_its_line() {
         .files
         .clone();
     let good = compose(&roots).unwrap();
-    let line = 1 + source("metrics/edge.wgsl")
-        .unwrap()
-        .lines()
-        .position(|line| line.contains("return bound.size"))
-        .unwrap();
-    // One that does not parse, one whose types do not fit.
-    for broken in ["return bound.size size;", "return leaf.level;"] {
+    let line_of = |text: &str| {
+        let lines = source("metrics/edge.wgsl").unwrap().lines();
+        1 + lines.into_iter().position(|line| line.contains(text)).unwrap()
+    };
+    // One that does not parse, and one whose types do not fit: of that naga names the function.
+    for (broken, place) in [
+        ("return bound.size size;", "return bound.size"),
+        ("return leaf.level;", "fn metric_size"),
+    ] {
+        let line = line_of(place);
         let scope = gpu.device.push_error_scope(keyleaf::wgpu::ErrorFilter::Validation);
         gpu.device.create_shader_module(keyleaf::wgpu::ShaderModuleDescriptor {
             label: Some(&label(&roots)),

@@ -3,7 +3,11 @@
 use crate::ParameterError;
 use keyleaf_key::{ONE, RootPoint, Topology};
 
-/// The point with face-local parameters (u, v); see [`Surface::face_coord`](crate::Surface::face_coord).
+/// The point with parameters (u, v) of a face of a topology; see [`Surface::face_coord`](crate::Surface::face_coord), which takes a user's
+/// number of the face: another one where some faces are not drawn.
+///
+/// # Errors
+/// [`ParameterError`] if there is no such face or (u, v) is NaN or outside it.
 pub fn root_point(topology: &Topology, face: u32, u: f64, v: f64) -> Result<RootPoint, ParameterError> {
     let faces = topology.face_count();
     if face >= faces {

@@ -56,6 +56,7 @@ mod subdivision;
 mod surface;
 mod terrain;
 
+pub use coordinate::root_point;
 pub use displaced_noise::{DisplacedNoise, NoiseDisplacement};
 pub use displaced_texture::{DisplacedTexture, TextureDisplacement};
 pub use error::{HeightMapError, MeshError, ParameterError, SettingError};

@@ -252,13 +252,18 @@ fn write_report(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
         quiet,
     };
     let mut page = report::empty(&setup, effort);
+    let mut failed = Vec::new();
     for loaded in &scenes {
         let camera = loaded.camera(arguments.camera.as_deref())?.name.clone();
         let view = loaded.view(Some(&camera), arguments.size)?;
         let scene = report::scene(&setup, loaded, &camera, &view, effort);
-        page.scenes
-            .push(scene.with_context(|| loaded.file.display().to_string())?);
+        match scene.with_context(|| loaded.file.display().to_string()) {
+            Ok(scene) => page.scenes.push(scene),
+            Err(error) => failed.push(format!("{error:#}")),
+        }
     }
+    page.notes
+        .extend(failed.iter().map(|error| format!("Not measured: {error}.")));
     report::add_scaling(&mut page);
     output::write(out, html::page(&page).as_bytes())?;
     output::write(&csv, page.csv().as_bytes())?;
@@ -276,6 +281,11 @@ fn write_report(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
             csv.display()
         ))?;
     }
+    anyhow::ensure!(
+        failed.is_empty(),
+        "{}; the report has the other scenes",
+        failed.join("; ")
+    );
     Ok(Outcome::Done)
 }
 

@@ -12,7 +12,7 @@ use keyleaf_report::report::{Errors, GrowthPoint, Point, Report, SceneReport};
 use keyleaf_report::run::{Clock, SceneRun};
 use keyleaf_report::scaling::{CostModel, device_classes, scaling};
 use keyleaf_stage::{Drawn, Loaded, LoadedObject, Pipelines, drawn};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// How thorough a report is.
 #[derive(Clone, Copy)]
@@ -30,6 +30,20 @@ impl Effort {
     /// Room for the finest settings: leaves of a surface, at least.
     fn capacity(self) -> u32 {
         if self.quick { 1 << 16 } else { 1 << 18 }
+    }
+
+    /// Room for the reference picture.
+    fn reference_capacity(self) -> u32 {
+        if self.quick { 1 << 17 } else { 1 << 20 }
+    }
+
+    /// How long settings of a scene are measured: no more are begun after this.
+    fn time_of_scene(self) -> Duration {
+        if self.quick {
+            Duration::from_secs(30)
+        } else {
+            Duration::MAX
+        }
     }
 
     /// How long frames of a setting are timed at most.
@@ -123,25 +137,38 @@ pub fn scene(
     measuring.reference = measuring.reference()?;
     bar.inc(1);
     let mut found = Vec::new();
-    for Series {
-        name,
-        points,
-        is_refining,
-    } in &all
-    {
-        for (label, changed) in points {
-            let point = measuring
-                .point(name, label, changed)
-                .with_context(|| format!("{name} {label}"))?;
-            let is_starved = point.threshold_factor > 1.0;
-            found.push(point);
-            bar.inc(1);
-            if is_starved && *is_refining {
-                break; // finer ones are as well
-            }
+    let mut notes = loaded.notes.clone();
+    let mut left_out = Vec::new();
+    let mut starved = vec![false; all.len()];
+    let begin = Instant::now();
+    for (p, s) in turns(&all) {
+        let Series { name, points, .. } = &all[s];
+        let (label, changed) = &points[p];
+        bar.inc(1);
+        if starved[s] {
+            continue;
         }
+        if begin.elapsed() > effort.time_of_scene() {
+            left_out.push(format!("{name} {label}"));
+            continue;
+        }
+        let point = measuring
+            .point(name, label, changed)
+            .with_context(|| format!("{name} {label}"))?;
+        // Then finer ones are as well.
+        starved[s] = all[s].is_refining && point.threshold_factor > 1.0;
+        found.push(((s, p), point));
     }
     bar.finish_and_clear();
+    found.sort_by_key(|(place, _)| *place);
+    let found: Vec<Point> = found.into_iter().map(|(_, point)| point).collect();
+    if !left_out.is_empty() {
+        let seconds = effort.time_of_scene().as_secs();
+        notes.push(format!(
+            "Left out, as a quick report takes {seconds} s for the settings of a scene: {}.",
+            left_out.join("; ")
+        ));
+    }
     let edges = found.iter().filter(|point| point.series == "edge");
     let growth = edges.map(|point| GrowthPoint {
         leaves: point.leaves,
@@ -155,8 +182,16 @@ pub fn scene(
         clock: measuring.clock,
         growth: growth.collect(),
         points: found,
-        notes: loaded.notes.clone(),
+        notes,
     })
+}
+
+/// Numbers of all points and their series, in the order in which they are measured: the first ones of all series, then the second ones.
+fn turns(all: &[Series]) -> Vec<(usize, usize)> {
+    let of = |(s, series): (usize, &Series)| (0..series.points.len()).map(move |p| (p, s)).collect::<Vec<_>>();
+    let mut turns: Vec<(usize, usize)> = all.iter().enumerate().flat_map(of).collect();
+    turns.sort_unstable();
+    turns
 }
 
 /// A scene that is measured.
@@ -172,9 +207,6 @@ struct Measuring<'a> {
     clock: Clock,
 }
 
-/// Room for the reference picture.
-const REFERENCE_CAPACITY: u32 = 1 << 20;
-
 impl Measuring<'_> {
     fn reference(&mut self) -> anyhow::Result<Vec<u8>> {
         let mut fine = self.truth.clone();
@@ -183,7 +215,7 @@ impl Measuring<'_> {
                 pixels: self.effort.reference_pixels(),
             };
             object.settings.target_leaves = 0;
-            object.settings.capacity = object.settings.capacity.max(REFERENCE_CAPACITY);
+            object.settings.capacity = object.settings.capacity.max(self.effort.reference_capacity());
         }
         let mut studio = Studio::with_pipelines(self.setup, &fine, self.view, &mut self.pipelines)?;
         Ok(studio.look()?.pixels)

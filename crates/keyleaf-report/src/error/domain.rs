@@ -3,7 +3,7 @@
 use super::MeasureError;
 use glam::{DVec2, DVec3};
 use keyleaf_key::{ONE, RootPoint, Topology};
-use keyleaf_surface::{Surface, SurfaceFrame};
+use keyleaf_surface::{Surface, SurfaceFrame, root_point};
 
 /// A convex piece of parameters: those of a face ([`Surface::face_coord`]), or, for a polygon of more than four corners, of one root.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,9 +62,9 @@ impl Domain {
                     y: fixed(v).min(ONE - x),
                 })
             }
-            Self::Triangle { face } | Self::Square { face } => surface
-                .face_coord(face, u, v)
-                .map_err(|error| MeasureError::Parameter(error.to_string())),
+            Self::Triangle { face } | Self::Square { face } => {
+                root_point(surface.topology(), face, u, v).map_err(|error| MeasureError::Parameter(error.to_string()))
+            }
         }
     }
 

@@ -5,7 +5,10 @@ use super::sphere::Sphere;
 use super::*;
 use glam::{DMat4, DQuat, DVec3, DVec4};
 use keyleaf_key::{ONE, Place, RootPoint};
-use keyleaf_surface::{CornerAttributes, Mesh, PolygonMesh, Surface};
+use keyleaf_surface::{
+    BoundaryRule, ControlMesh, CornerAttributes, Mesh, PolygonMesh, Subdivision, SubdivisionSettings, Surface,
+    SurfaceFrame, root_point,
+};
 
 const UNIT: ErrorSettings = ErrorSettings {
     intervals: 6,
@@ -301,6 +304,38 @@ fn the_creases_of_a_flat_mesh_are_its_silhouette() {
         .iter()
         .sum();
     assert!(near(contour.length, outline, 1e-9), "{contour:?} {outline}");
+}
+
+#[test]
+fn surfaces_whose_first_faces_are_not_drawn_are_measured() {
+    let at = |i: u32, j: u32| 5 * j + i;
+    let cells = (0..16).map(|k| (k % 4, k / 4));
+    let control = ControlMesh {
+        boundary: BoundaryRule::None,
+        ..ControlMesh::from(PolygonMesh {
+            positions: (0..25)
+                .map(|k| DVec3::new(f64::from(k % 5), f64::from(k / 5), 0.0))
+                .collect(),
+            faces: cells
+                .map(|(i, j)| [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)])
+                .collect(),
+            corners: CornerAttributes::default(),
+        })
+    };
+    let surface = Subdivision::new(&control, SubdivisionSettings::default()).unwrap();
+    assert_eq!(surface.topology().face_count(), 4);
+    let vertex = |face, [u, v]: [f64; 2]| {
+        let at = root_point(surface.topology(), face, u, v).unwrap();
+        let SurfaceFrame { position, normal, .. } = surface.frame(at);
+        DrawnVertex { at, position, normal }
+    };
+    let triangles: Vec<_> = (0..4)
+        .map(|face| DrawnTriangle {
+            corners: [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]].map(|at| vertex(face, at)),
+        })
+        .collect();
+    let error = measure(&surface, &triangles, &UNIT, None).unwrap();
+    assert!(error.both_ways().max < 1e-12, "flat: {error:?}");
 }
 
 #[test]

@@ -241,7 +241,7 @@ fn what_the_device_complains_of_names_the_file_and_its_line() {
     ] {
         let line = line_of(place);
         let scope = gpu.device.push_error_scope(keyleaf::wgpu::ErrorFilter::Validation);
-        gpu.device.create_shader_module(keyleaf::wgpu::ShaderModuleDescriptor {
+        let _refused = gpu.device.create_shader_module(keyleaf::wgpu::ShaderModuleDescriptor {
             label: Some(&label(&roots)),
             source: keyleaf::wgpu::ShaderSource::Wgsl(good.replace("return bound.size;", broken).into()),
         });

@@ -335,7 +335,8 @@ fn surfaces_whose_first_faces_are_not_drawn_are_measured() {
         })
         .collect();
     let error = measure(&surface, &triangles, &UNIT, None).unwrap();
-    assert!(error.both_ways().max < 1e-12, "flat: {error:?}");
+    // To the rounding of parameters.
+    assert!(error.both_ways().max < 1e-9, "flat: {error:?}");
 }
 
 #[test]

@@ -2,12 +2,15 @@
 //! nothing cracks.
 
 use super::Shown;
-use super::studio::{Setup, Studio, with_settings};
+use super::series::gridded;
+use super::studio::{Setup, Studio, screen_of, with_settings};
 use crate::output::thousands;
 use crate::progress;
-use glam::{DMat4, DVec2};
+use crate::timing::TimedFrame;
+use glam::DVec2;
 use keyleaf::{Balance, Metric, Settings, View};
 use keyleaf_report::error::ScreenView;
+use keyleaf_report::run::Series;
 use keyleaf_stage::{Drawn, Loaded, drawn};
 use serde_json::json;
 
@@ -128,11 +131,7 @@ impl Measuring<'_> {
     /// The present setting of a studio.
     fn row(&self, studio: &mut Studio<'_>, name: &str, value: String) -> anyhow::Result<Row> {
         let film = studio.film()?;
-        let median = |value: &dyn Fn(usize) -> f64| {
-            let mut all: Vec<f64> = (0..film.frames.len()).map(value).collect();
-            all.sort_by(f64::total_cmp);
-            all[all.len() / 2]
-        };
+        let median = |value: fn(&TimedFrame) -> f64| Series::new(film.frames.iter().map(value)).p50;
         let quadtree = &studio.stage().objects[0].quadtree;
         let snapshot = quadtree.read_back(&self.setup.gpu.device, &self.setup.gpu.queue)?;
         let slots = || snapshot.visible.iter().map(|&slot| slot as usize);
@@ -147,8 +146,8 @@ impl Measuring<'_> {
             pairs: pairs as f64 / snapshot.visible.len().max(1) as f64,
             areas: Areas::of(&drawn(self.setup.gpu, quadtree)?, &self.screen),
             starved: snapshot.statistics.starved,
-            update_ms: median(&|i| film.frames[i].update.ms),
-            draw_ms: median(&|i| film.frames[i].draw.unwrap_or_default().ms),
+            update_ms: median(|frame| frame.update.ms),
+            draw_ms: median(|frame| frame.draw.unwrap_or_default().ms),
         })
     }
 
@@ -193,10 +192,7 @@ impl Measuring<'_> {
     fn grids(&self, done: &dyn Fn()) -> anyhow::Result<Vec<Row>> {
         let mut rows = Vec::new();
         for k in GRIDS {
-            let mut studio = self.studio(|settings| {
-                settings.base_grid = k;
-                settings.max_level = settings.max_level.min(keyleaf::key::MAX_LEVEL - k);
-            })?;
+            let mut studio = self.studio(|settings| gridded(settings, k))?;
             rows.push(self.row(&mut studio, "base grid", format!("4^{k}"))?);
             done();
         }
@@ -213,15 +209,11 @@ impl Measuring<'_> {
 pub fn table(setup: &Setup<'_>, loaded: &Loaded, view: &View) -> anyhow::Result<Shown> {
     let bar = progress::bar((2 * PIXELS.len() + GRIDS.len() + 2) as u64, "levels", setup.quiet);
     let quiet = Setup { quiet: true, ..*setup };
-    let clip_from_world = view.clip_from_view().as_dmat4()
-        * DMat4::from_quat(view.orientation.inverse())
-        * DMat4::from_translation(-view.eye);
-    let clip_from_object = clip_from_world * DMat4::from(loaded.objects[0].world_from_object);
     let measuring = Measuring {
         setup: &quiet,
         loaded,
         view,
-        screen: ScreenView::new(clip_from_object, setup.size.to_array()),
+        screen: screen_of(setup, view, &loaded.objects[0]),
     };
     let metrics = measuring.metrics(&|| bar.inc(1))?;
     let grids = measuring.grids(&|| bar.inc(1))?;

@@ -1,12 +1,11 @@
 //! The report: error against time for every setting of a scene.
 
 use super::series::{self, Series};
-use super::studio::{Setup, Studio};
+use super::studio::{Setup, Studio, screen_of};
 use crate::{progress, record};
 use anyhow::Context;
-use glam::DMat4;
 use keyleaf::{Metric, View};
-use keyleaf_report::error::{DrawnTriangle, DrawnVertex, ErrorSettings, MeshError, ScreenView, measure};
+use keyleaf_report::error::{DrawnTriangle, DrawnVertex, ErrorSettings, MeshError, measure};
 use keyleaf_report::picture::{Mask, Picture, PictureError, picture_error};
 use keyleaf_report::report::{Errors, GrowthPoint, Point, Report, SceneReport};
 use keyleaf_report::run::{Clock, SceneRun};
@@ -262,11 +261,7 @@ impl Measuring<'_> {
             most_samples: self.effort.samples(),
             ..ErrorSettings::default()
         };
-        let clip_from_world = self.view.clip_from_view().as_dmat4()
-            * DMat4::from_quat(self.view.orientation.inverse())
-            * DMat4::from_translation(-self.view.eye);
-        let clip_from_object = clip_from_world * DMat4::from(truth.world_from_object);
-        let screen = ScreenView::new(clip_from_object, self.setup.size.to_array());
+        let screen = screen_of(self.setup, self.view, truth);
         Ok(Some(measure(
             truth.surface.as_ref(),
             &triangles,

@@ -45,7 +45,7 @@ fn with_settings(loaded: &Loaded, change: impl Fn(&mut Settings)) -> Loaded {
 }
 
 /// Another base grid. Level and grid together are at most 31.
-fn gridded(settings: &mut Settings, k: u32) {
+pub fn gridded(settings: &mut Settings, k: u32) {
     settings.base_grid = k;
     settings.max_level = settings.max_level.min(MAX_LEVEL - k);
 }

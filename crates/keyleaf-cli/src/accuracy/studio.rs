@@ -2,9 +2,10 @@
 
 use crate::session;
 use crate::timing::{self, TimedFrame, Timer};
-use glam::UVec2;
+use glam::{DMat4, UVec2};
 use keyleaf::headless::Headless;
 use keyleaf::{Settings, View};
+use keyleaf_report::error::ScreenView;
 use keyleaf_stage::{Canvas, Loaded, LoadedObject, Pipelines, Stage, StageLook, target};
 use std::time::{Duration, Instant};
 
@@ -146,6 +147,17 @@ impl<'a> Studio<'a> {
     pub fn look(&mut self) -> anyhow::Result<Shot> {
         self.draw(0)
     }
+}
+
+/// The view of the pictures, as the object space of a surface sees it.
+pub fn screen_of(setup: &Setup<'_>, view: &View, object: &LoadedObject) -> ScreenView {
+    let clip_from_world = view.clip_from_view().as_dmat4()
+        * DMat4::from_quat(view.orientation.inverse())
+        * DMat4::from_translation(-view.eye);
+    ScreenView::new(
+        clip_from_world * DMat4::from(object.world_from_object),
+        setup.size.to_array(),
+    )
 }
 
 /// The scene with another surface in place of its only one.

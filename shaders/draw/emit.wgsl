@@ -1,5 +1,5 @@
 // The vertices of leaves as the draw computes them, into a buffer: for export and for checks.
-// requires: shared/leaf.wgsl, shared/grid.wgsl, shared/surface.wgsl
+// requires: shared/leaf.wgsl, shared/frame.wgsl, shared/grid.wgsl, shared/surface.wgsl
 
 struct Emission {
     first: u32,     // of `slots`
@@ -14,6 +14,7 @@ struct Emission {
 @group(0) @binding(3) var<storage, read> slots: array<u32>;
 @group(0) @binding(4) var<storage, read> grid: array<u32>;          // i | j << 16
 @group(0) @binding(5) var<storage, read_write> emitted: array<vec4f>; // position and normal of each vertex
+@group(0) @binding(6) var<uniform> frame: Frame;                   // where vertices morph
 
 @compute @workgroup_size(64)
 fn emit(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
@@ -25,7 +26,7 @@ fn emit(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     let vertex = grid[index % emission.vertices];
     let place = leaf_place(leaves[slot]);
     let at = grid_coord(place, (state[slot] & PAIR) != 0u, vertex & 0xffffu, vertex >> 16u, emission.base_grid);
-    let on = surface_frame(place.face, at);
+    let on = drawn_frame(place.face, at);
     emitted[2u * index] = vec4f(on.position, 1.0);
     emitted[2u * index + 1u] = vec4f(on.normal, 0.0);
 }

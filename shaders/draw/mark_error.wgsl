@@ -1,6 +1,6 @@
 // Triangles are marked with how far they are from the surface, in pixels: the surface in the middle of the drawn edges at a vertex,
 // from the middle of their ends. Six evaluations a vertex.
-// requires: draw/vertex.wgsl, shared/shading.wgsl
+// requires: draw/vertex.wgsl, shared/shading.wgsl, shared/grid_edges.wgsl
 
 fn leaf_mark(slot: u32, place: Place, is_pair: bool, i: u32, j: u32, here: vec3f) -> u32 {
     let k = frame.base_grid;
@@ -11,7 +11,7 @@ fn leaf_mark(slot: u32, place: Place, is_pair: bool, i: u32, j: u32, here: vec3f
     let n = 1i << k;
     var worst = 0.0;
     for (var edge = 0u; edge < 3u; edge++) {
-        var step = select(select(vec2i(1, -1), vec2i(0, 1), edge == 1u), vec2i(1, 0), edge == 0u);
+        var step = grid_step(edge);
         if !is_on_grid(at + step, n) {
             step = -step;
         }
@@ -20,7 +20,7 @@ fn leaf_mark(slot: u32, place: Place, is_pair: bool, i: u32, j: u32, here: vec3f
         }
         let there = vec2u(at + step);
         let between = vec2u(2 * at + step);
-        let end = surface_point(place.face, grid_coord(place, is_pair, there.x, there.y, k));
+        let end = drawn_frame(place.face, grid_coord(place, is_pair, there.x, there.y, k)).position;
         let middle = surface_point(place.face, grid_coord(place, is_pair, between.x, between.y, k + 1u));
         let away = middle - mix(here, end, 0.5);
         worst = max(worst, length((frame.world_from_object * vec4f(away, 0.0)).xyz));
@@ -29,8 +29,4 @@ fn leaf_mark(slot: u32, place: Place, is_pair: bool, i: u32, j: u32, here: vec3f
     let clip = frame.clip_from_view * vec4f(seen.xyz, 1.0);
     let pixels = worst * shading.pixels_per_unit / max(clip.w, frame.near);
     return pack2x16float(vec2f(0.0, min(pixels, 60000.0)));
-}
-
-fn is_on_grid(at: vec2i, n: i32) -> bool {
-    return at.x >= 0 && at.y >= 0 && at.x + at.y <= n;
 }

@@ -1,5 +1,5 @@
 // The vertex shader of every drawn leaf: instance → visible leaf → vertex of the base grid → surface. The leaf carries its decoded
-// place, so that nothing is decoded here.
+// place, so that nothing is decoded here. A file of `morph` defines where the vertex is drawn.
 // requires: shared/leaf.wgsl, shared/frame.wgsl, shared/grid.wgsl, shared/surface.wgsl
 
 @group(0) @binding(0) var<uniform> frame: Frame;
@@ -24,7 +24,7 @@ fn leaf_vertex(instance: u32, grid: u32) -> Vertex {
     let i = grid & 0xffffu;
     let j = grid >> 16u;
     let at = grid_coord(place, is_pair, i, j, frame.base_grid);
-    let on = surface_frame(place.face, at);
+    let on = drawn_frame(place.face, at);
     let from_eye = vec4f(on.position - frame.eye, 0.0);
     let seen = frame.view_from_object * from_eye;
     return Vertex(

@@ -19,6 +19,9 @@ struct Frame {
     base_grid: u32,             // k: a leaf is drawn as 4^k triangles
     view_serial: u32,           // another number for another view
     metric_parameter: f32,      // for metrics that have one
+    refined_eye: vec3f,         // as `eye`: from where the leaves were refined
+    wish_when_near: f32,        // wish of a node that is as large as it is far away, where the metric is a length
+    pressure: i32,              // as in Control, after the last update; only where vertices morph
 }
 
 const CULLING: u32 = 0u;

@@ -1,6 +1,6 @@
 //! Rust and WGSL lay out what they share alike: offsets, sizes, constants and bindings as naga computes them. No device.
 
-use crate::shaders::{channels, files_in, kinds, parse};
+use crate::shaders::{channels, drawn_kind, files_in, kinds, morphing_channels, parse};
 use encase::ShaderType;
 use encase::internal::WriteInto;
 use glam::{Mat4, Vec3, Vec4};
@@ -8,7 +8,7 @@ use keyleaf::binding::Binding;
 use keyleaf::draw::{Attribute, Sky};
 use keyleaf::layout::{self, Control, Leaf, Measure, arguments};
 use keyleaf::shading::{Background, Shading};
-use keyleaf::{Frame, modules};
+use keyleaf::{Frame, Morph, modules};
 use naga::{AddressSpace, Literal, Module, StorageAccess, TypeInner};
 use std::collections::BTreeMap;
 use std::mem::{offset_of, size_of};
@@ -78,6 +78,7 @@ fn attributes() {
         &parse(&[
             "draw/varying_attributes.wgsl",
             "draw/mark_none.wgsl",
+            "morph/none.wgsl",
             "surfaces/mesh.wgsl",
         ]),
         "Attribute",
@@ -132,6 +133,9 @@ fn frame() {
         base_grid: 10,
         view_serial: 11,
         metric_parameter: 12.0,
+        refined_eye: Vec3::splat(13.0),
+        wish_when_near: 14.0,
+        pressure: 15,
     };
     let f = f32::to_bits;
     let words = [
@@ -152,8 +156,17 @@ fn frame() {
         ("base_grid", 10),
         ("view_serial", 11),
         ("metric_parameter", f(12.0)),
+        ("refined_eye", f(13.0)),
+        ("wish_when_near", f(14.0)),
+        ("pressure", 15),
     ];
     assert_uniform(&["shared/frame.wgsl"], "Frame", &value, &words);
+    let (found, _) = members(&parse(&["shared/frame.wgsl"]), "Frame");
+    let (last, offset) = found.last().expect("members");
+    assert_eq!(
+        (last.as_str(), u64::from(*offset)),
+        ("pressure", Frame::pressure_offset())
+    );
 }
 
 #[test]
@@ -341,9 +354,10 @@ fn the_update_declares_the_bindings_of_its_layouts_and_at_most_eight_storage_buf
 #[test]
 fn no_draw_binds_more_than_eight_storage_buffers() {
     for surface in files_in("surfaces/") {
-        for channel in channels() {
-            let mut files = channel.files();
-            files.push(surface);
+        let still = channels().into_iter().map(|channel| (channel, Morph::None));
+        for (channel, morph) in still.chain(morphing_channels().map(|channel| (channel, Morph::Geomorph))) {
+            let kind = drawn_kind(surface, "metrics/edge.wgsl", morph);
+            let files = [channel.files(), kind.drawing_files()].concat();
             let found = declared(&parse(&files));
             let storage = found.values().filter(|kind| is_storage(kind)).count();
             assert!(storage <= 8, "{files:?}: {storage}");

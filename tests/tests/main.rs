@@ -8,7 +8,7 @@
 //! | [`every_pass`], [`checks`] | what must hold of every leaf set, and checks that can fail |
 //! | [`history`], [`starvation`], [`scaling`] | where it settles |
 //! | [`leaf_table`] | how long look-ups are |
-//! | [`culling`], [`watertight`], [`closed_parts`] | what is drawn |
+//! | [`culling`], [`watertight`], [`closed_parts`], [`morphing`] | what is drawn |
 //! | [`posing`] | what moves |
 //! | [`hard_cases`], [`precision`], [`large`] | where numbers get very large, small or many |
 
@@ -29,6 +29,7 @@ mod large;
 mod layouts;
 mod leaf_table;
 mod metrics;
+mod morphing;
 mod posing;
 mod precision;
 mod scaling;

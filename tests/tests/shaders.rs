@@ -4,7 +4,7 @@ use keyleaf::draw::Sky;
 use keyleaf::inspect::Inspector;
 use keyleaf::map::MapPipeline;
 use keyleaf::shading::{Atmosphere, Channel, Material, Overlay, Tint};
-use keyleaf::{BackFaces, Balance, Kind, modules};
+use keyleaf::{BackFaces, Balance, Kind, Morph, modules};
 use keyleaf_shaders::{FILES, compose, dependencies, label, located, source};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 use std::collections::BTreeSet;
@@ -29,6 +29,7 @@ pub fn kinds() -> Vec<Kind> {
                 metric,
                 balance,
                 back_faces: BackFaces::Drawn,
+                morph: Morph::None,
                 pose: None,
             }));
         }
@@ -39,6 +40,7 @@ pub fn kinds() -> Vec<Kind> {
                     metric: "metrics/edge.wgsl",
                     balance: Balance::Table,
                     back_faces,
+                    morph: Morph::None,
                     pose: None,
                 })
                 .into_iter()
@@ -54,6 +56,7 @@ pub fn kinds() -> Vec<Kind> {
             metric: "metrics/edge.wgsl",
             balance: Balance::Table,
             back_faces: BackFaces::Drawn,
+            morph: Morph::None,
             pose: Some(pose),
         });
     }
@@ -83,17 +86,53 @@ pub fn channels() -> Vec<Channel> {
     channels
 }
 
+/// Channels that differ in what their vertices say of themselves; what the pixels do with it is no matter of morphing.
+pub fn morphing_channels() -> [Channel; 4] {
+    let tinted = |material, tint| Channel::Colour(material, Overlay { tint, wireframe: false }, Atmosphere::None);
+    [
+        Channel::Position,
+        tinted(Material::Texture, Tint::None),
+        tinted(Material::Plain, Tint::Error),
+        tinted(Material::Plain, Tint::Morph),
+    ]
+}
+
+/// A kind of quadtree as far as drawing goes.
+pub fn drawn_kind(surface: &'static str, metric: &'static str, morph: Morph) -> Kind {
+    Kind {
+        surface,
+        metric,
+        morph,
+        balance: Balance::Table,
+        back_faces: BackFaces::Drawn,
+        pose: None,
+    }
+}
+
 /// All sets of files that become a module.
 fn combinations() -> BTreeSet<Vec<&'static str>> {
     let mut all: BTreeSet<Vec<&'static str>> = kinds().iter().flat_map(modules).map(|module| module.files).collect();
     for surface in files_in("surfaces/") {
-        let with_surface = |mut files: Vec<&'static str>| {
-            files.push(surface);
-            files
+        let [emit, evaluate] = Inspector::FILES;
+        let drawn = |files: &[&'static str], morph, metric| {
+            [files, &drawn_kind(surface, metric, morph).drawing_files()].concat()
         };
-        all.extend(channels().iter().map(|channel| with_surface(channel.files())));
-        all.extend(Inspector::FILES.map(|file| with_surface(vec![file])));
-        all.insert(with_surface(MapPipeline::FILES.to_vec()));
+        let edge = "metrics/edge.wgsl";
+        for channel in channels() {
+            all.insert(drawn(&channel.files(), Morph::None, edge));
+        }
+        for channel in morphing_channels() {
+            all.insert(drawn(&channel.files(), Morph::Geomorph, edge));
+        }
+        all.insert(drawn(&[emit], Morph::None, edge));
+        for metric in ["edge", "distance", "boundary", "local_area"] {
+            let metric = files_in("metrics/")
+                .into_iter()
+                .find(|file| *file == format!("metrics/{metric}.wgsl"));
+            all.insert(drawn(&[emit], Morph::Geomorph, metric.expect("a metric")));
+        }
+        all.insert(vec![evaluate, surface]);
+        all.insert(MapPipeline::FILES.into_iter().chain([surface]).collect());
     }
     all.insert(Sky::FILES.to_vec());
     all
@@ -161,8 +200,9 @@ fn a_module_has_the_functions_of_its_files_and_no_others() {
 /// Functions of an effect, the effect's name in a file, and who may have them.
 #[test]
 fn what_a_scene_does_not_name_is_not_in_its_shaders() {
-    let effects: [(&str, &[&str]); 9] = [
+    let effects: [(&str, &[&str]); 10] = [
         ("heights", &["height"]),
+        ("morph/geomorph", &["morph/geomorph"]),
         ("noise2", &["terrain.wgsl"]),
         ("noise3", &["displaced_noise"]),
         ("displaced", &["displaced"]),

@@ -3,7 +3,7 @@
 use anyhow::{Context, bail, ensure};
 use clap::{Args, ValueEnum};
 use glam::{DVec3, UVec2};
-use keyleaf::{BackFaces, Metric, Settings, Threshold, View};
+use keyleaf::{BackFaces, Metric, Morph, Settings, Threshold, View};
 use keyleaf_scene::scene::ShapeName;
 use keyleaf_stage::{LoadOptions, Loaded, load, view_of};
 use std::path::{Path, PathBuf};
@@ -61,6 +61,10 @@ pub struct Overrides {
     /// Concheiro's thesis, both approximate) or conservative
     #[arg(long, value_name = "HOW", value_parser = parse_back_faces)]
     pub back_faces: Option<BackFaces>,
+    /// Where the vertices that a split adds are drawn: on the surface (none), or first on the edge that they divide, from where they slide
+    /// to the surface (geomorph)
+    #[arg(long, value_name = "HOW", value_parser = parse_morph)]
+    pub morph: Option<Morph>,
     /// Leaves that the buffers of a surface hold
     #[arg(long, value_name = "N")]
     pub capacity: Option<u32>,
@@ -145,6 +149,7 @@ impl Overrides {
         };
         settings.metric = self.pixels.map(of_edges).or(self.metric).unwrap_or(settings.metric);
         settings.back_faces = self.back_faces.unwrap_or(settings.back_faces);
+        settings.morph = self.morph.unwrap_or(settings.morph);
         settings.capacity = self.capacity.unwrap_or(settings.capacity);
         settings.target_leaves = settings.target_leaves.min(settings.capacity);
         if let Some(k) = self.base_grid {
@@ -247,6 +252,11 @@ fn parse_back_faces(text: &str) -> anyhow::Result<BackFaces> {
     let names = || all.map(BackFaces::name).join(", ");
     let found = all.into_iter().find(|how| how.name() == text);
     found.with_context(|| format!("expected one of {}", names()))
+}
+
+fn parse_morph(text: &str) -> anyhow::Result<Morph> {
+    let found = Morph::ALL.into_iter().find(|how| how.name() == text);
+    found.context("expected none or geomorph")
 }
 
 /// A positive number of seconds.

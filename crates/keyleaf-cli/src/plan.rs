@@ -70,8 +70,12 @@ fn surface(surface: &PlannedSurface) -> String {
         (name, false) => format!(", back faces {name}"),
         (name, true) => format!(", back faces {name} (approximate: visible parts may be missing)"),
     };
+    let morph = match surface.morph.as_str() {
+        "none" => String::new(),
+        name => format!(", {name}"),
+    };
     format!(
-        "surface {}: {}, metric {}{history}{back_faces}\n{} faces, {} roots, {} leaves at most ({:.1} bytes a leaf), level {} at most, {} \
+        "surface {}: {}, metric {}{history}{morph}{back_faces}\n{} faces, {} roots, {} leaves at most ({:.1} bytes a leaf), level {} at most, {} \
          triangles a leaf\n\n{}\n\n{}",
         surface.name,
         surface.surface,

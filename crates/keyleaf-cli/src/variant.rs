@@ -1,7 +1,7 @@
 //! Settings that are swept: `edge=1,2,4`, each value a variant.
 
 use anyhow::{Context, bail, ensure};
-use keyleaf::{BackFaces, Balance, Metric, Settings};
+use keyleaf::{BackFaces, Balance, Metric, Morph, Settings};
 use std::collections::BTreeMap;
 
 /// A setting and the values that it takes in turn.
@@ -12,7 +12,7 @@ pub struct Sweep {
 }
 
 /// A name and what its values are.
-const NAMES: [(&str, &str); 9] = [
+const NAMES: [(&str, &str); 10] = [
     ("edge", "pixels"),
     ("deviation", "pixels"),
     ("distance", "a factor"),
@@ -24,6 +24,7 @@ const NAMES: [(&str, &str); 9] = [
         "the part of the threshold outside the view, above 0, at most 1",
     ),
     ("back-faces", "drawn, hidden, leaves, light, strong or conservative"),
+    ("morph", "none or geomorph"),
     ("neighbours", "on or off"),
 ];
 
@@ -104,6 +105,10 @@ fn apply(name: &str, value: &str, settings: &mut Settings) -> anyhow::Result<()>
             let found = BackFaces::ALL.into_iter().find(|how| how.name() == value);
             settings.back_faces = found.with_context(wrong)?;
         }
+        "morph" => {
+            let found = Morph::ALL.into_iter().find(|how| how.name() == value);
+            settings.morph = found.with_context(wrong)?;
+        }
         "neighbours" => {
             settings.balance = match value {
                 "on" => Balance::Table,
@@ -135,6 +140,7 @@ pub fn described(settings: &Settings) -> BTreeMap<String, String> {
         ("guard_factor", settings.guard_factor.to_string()),
         ("cull", settings.cull.to_string()),
         ("back_faces", settings.back_faces.name().to_owned()),
+        ("morph", settings.morph.name().to_owned()),
         ("neighbours", (settings.balance == Balance::Table).to_string()),
     ]
     .map(|(name, value)| (name.to_owned(), value))
@@ -173,6 +179,7 @@ mod tests {
             "edge=1,x",
             "base-grid=7",
             "neighbours=maybe",
+            "morph=yes",
             "settle=0",
         ] {
             assert!(message(wrong).contains("expected"), "{wrong}");

@@ -5,7 +5,7 @@ use glam::UVec2;
 use keyleaf::draw::{LeafDraw, LeafPipeline};
 use keyleaf::headless::Headless;
 use keyleaf::shading::{Channel, Shading};
-use keyleaf::{KeyleafError, View};
+use keyleaf::{KeyleafError, Quadtree, View};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU32, Ordering};
 
@@ -46,7 +46,7 @@ impl ErrorProbe {
         let target = target(Show::Error);
         let mut draws = Vec::new();
         for (object, loaded) in stage.objects.iter().zip(&loaded.objects) {
-            let kind = object.quadtree.passes().kind();
+            let kind = Quadtree::kind(loaded.surface.as_ref(), object.quadtree.settings());
             let pipeline = pipelines.draw(&gpu.device, kind, Channel::Error, target)?;
             let draw = LeafDraw::new(&gpu.device, &gpu.queue, &pipeline, &object.quadtree, &loaded.look);
             draws.push((pipeline, draw));

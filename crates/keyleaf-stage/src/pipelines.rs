@@ -3,7 +3,7 @@
 use keyleaf::draw::{LeafPipeline, Target};
 use keyleaf::map::MapPipeline;
 use keyleaf::shading::Channel;
-use keyleaf::{KeyleafError, Kind, Passes};
+use keyleaf::{KeyleafError, Kind, Morph, Passes};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -21,6 +21,10 @@ impl Pipelines {
     /// # Errors
     /// [`KeyleafError`] if the kind is impossible.
     pub fn passes(&mut self, device: &wgpu::Device, kind: Kind) -> Result<Arc<Passes>, KeyleafError> {
+        let kind = Kind {
+            morph: Morph::None, // as far as the update goes
+            ..kind
+        };
         if let Some(passes) = self.passes.get(&kind) {
             return Ok(Arc::clone(passes));
         }

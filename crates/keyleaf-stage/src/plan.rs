@@ -42,6 +42,8 @@ pub struct PlannedSurface {
     pub back_faces: String,
     /// Whether something that can be seen may be missing.
     pub approximate: bool,
+    /// Where the vertices that a split adds are drawn.
+    pub morph: String,
     /// Faces of the control mesh.
     pub faces: u32,
     /// Roots: the fewest leaves.
@@ -119,7 +121,7 @@ fn surface(
     }
     let channel = effects.channel(show, object.material);
     let mut files = channel.files();
-    files.push(kind.surface);
+    files.extend(kind.drawing_files());
     planned.push(module("draw", &["draw"], &files)?);
 
     let capacity = object.settings.capacity;
@@ -184,6 +186,7 @@ fn surface(
         history_dependent: !object.settings.metric.is_nested(),
         back_faces: object.settings.back_faces.name().to_owned(),
         approximate: object.settings.back_faces.is_approximate(),
+        morph: object.settings.morph.name().to_owned(),
         faces: topology.face_count(),
         roots: topology.half_edge_count(),
         capacity,

@@ -206,8 +206,13 @@ impl Stage {
             self.objects = made?;
             return Ok(true);
         }
-        for (object, wanted) in self.objects.iter_mut().zip(&loaded.objects) {
+        for i in 0..self.objects.len() {
+            let (object, wanted) = (&mut self.objects[i], &loaded.objects[i]);
+            let morph = object.quadtree.settings().morph;
             object.quadtree.set_settings(wanted.settings)?;
+            if wanted.settings.morph != morph {
+                self.objects[i].drawn = self.drawn(wanted, &self.objects[i].quadtree, pipelines)?;
+            }
         }
         Ok(false)
     }

@@ -102,6 +102,7 @@ pub const SHORTCUTS: &[Shortcut] = &[
     plain(Key::Num5, "5", "normals", || Action::Tint(Tint::Normal)),
     plain(Key::Num6, "6", "error in pixels", || Action::Tint(Tint::Error)),
     plain(Key::Num7, "7", "overdraw", || Action::Overdraw),
+    plain(Key::Num8, "8", "morph zones", || Action::Tint(Tint::Morph)),
     plain(Key::Num0, "0", "plain surface", || Action::Tint(Tint::None)),
     plain(Key::Z, "Z", "freeze the quadtree", || Action::Freeze),
     plain(Key::M, "M", "minimap", || Action::Minimap),

@@ -8,7 +8,7 @@ use keyleaf::headless::Headless;
 use keyleaf::inspect::{Emitted, Inspector};
 use keyleaf::layout::state;
 use keyleaf::read_back::Snapshot;
-use keyleaf::{BaseGrid, Metric, Quadtree};
+use keyleaf::{BaseGrid, Kind, Metric, Quadtree};
 use keyleaf_key::{Place, Topology, neighbour};
 use std::collections::{HashMap, HashSet};
 
@@ -46,7 +46,7 @@ impl Picked {
 /// Evaluators of the kinds of surfaces that were asked so far.
 #[derive(Default)]
 pub struct Picker {
-    inspectors: HashMap<&'static str, Inspector>,
+    inspectors: HashMap<Kind, Inspector>,
 }
 
 /// A ray and where it has met something.
@@ -77,8 +77,8 @@ impl Picker {
         let mut snapshots = Vec::new();
         for (index, object) in document.stage.objects.iter().enumerate() {
             let quadtree = &object.quadtree;
-            let kind = quadtree.passes().kind();
-            let inspector = match self.inspectors.entry(kind.surface) {
+            let kind = Quadtree::kind(quadtree.surface().as_ref(), quadtree.settings());
+            let inspector = match self.inspectors.entry(kind) {
                 std::collections::hash_map::Entry::Occupied(entry) => entry.into_mut(),
                 std::collections::hash_map::Entry::Vacant(entry) => entry.insert(Inspector::new(&gpu.device, &kind)?),
             };

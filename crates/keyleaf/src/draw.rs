@@ -79,7 +79,7 @@ impl LeafPipeline {
     /// [`KeyleafError::Compose`] if a shader file is missing.
     pub fn new(device: &wgpu::Device, kind: &Kind, channel: Channel, target: Target) -> Result<Self, KeyleafError> {
         let mut files = channel.files();
-        files.push(kind.surface);
+        files.extend(kind.drawing_files());
         let shader = shader_module(device, &files)?;
         let leaf_layout = binding::layout(
             device,

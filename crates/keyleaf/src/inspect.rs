@@ -8,6 +8,7 @@ use crate::layout::groups_for;
 use crate::module::shader_module;
 use crate::passes::Kind;
 use crate::read_back::map;
+use crate::settings::Morph;
 use crate::surface_buffers::surface_layout;
 use crate::{KeyleafError, Quadtree};
 use glam::{UVec4, Vec3};
@@ -41,6 +42,7 @@ pub struct Emitted {
 pub struct Inspector {
     emit: (wgpu::ComputePipeline, wgpu::BindGroupLayout),
     evaluate: (wgpu::ComputePipeline, wgpu::BindGroupLayout),
+    morph: Morph,
 }
 
 /// The most bytes that one dispatch writes; larger jobs go in pieces.
@@ -57,9 +59,9 @@ impl Inspector {
     pub fn new(device: &wgpu::Device, kind: &Kind) -> Result<Self, KeyleafError> {
         use Binding::{Read, Uniform, Write};
         let surface = surface_layout(device, kind.surface)?;
-        let make = |file: &'static str, entry: &str, bindings: &[Binding]| -> Result<_, KeyleafError> {
+        let make = |files: &[&'static str], entry: &str, bindings: &[Binding]| -> Result<_, KeyleafError> {
             let label = format!("keyleaf.{entry}");
-            let module = shader_module(device, &[file, kind.surface])?;
+            let module = shader_module(device, files)?;
             let layout = binding::layout(device, &label, wgpu::ShaderStages::COMPUTE, bindings);
             let pipeline_layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(&label),
@@ -77,9 +79,15 @@ impl Inspector {
             Ok((pipeline, layout))
         };
         let [emit, evaluate] = Self::FILES;
+        let mut emission = vec![Uniform, Read, Read, Read, Read, Write];
+        if kind.morph != Morph::None {
+            emission.push(Uniform);
+        }
+        let drawing = [&[emit], &kind.drawing_files()[..]].concat();
         Ok(Self {
-            emit: make(emit, "emit", &[Uniform, Read, Read, Read, Read, Write])?,
-            evaluate: make(evaluate, "evaluate", &[Uniform, Read, Write])?,
+            emit: make(&drawing, "emit", &emission)?,
+            evaluate: make(&[evaluate, kind.surface], "evaluate", &[Uniform, Read, Write])?,
+            morph: kind.morph,
         })
     }
 
@@ -105,18 +113,22 @@ impl Inspector {
         for part in slots.chunks(piece) {
             let emission = UVec4::new(0, part.len() as u32, grid.len() as u32, k);
             let slots = storage(device, "keyleaf.emit.slots", bytemuck::cast_slice(part));
+            let mut inputs = vec![
+                (1, &buffers.leaves),
+                (2, &buffers.state),
+                (3, &slots),
+                (4, &grid_buffer),
+            ];
+            if self.morph != Morph::None {
+                inputs.push((6, &buffers.frame));
+            }
             let words = self.run(
                 device,
                 queue,
                 &self.emit,
                 quadtree,
                 emission,
-                &[
-                    (1, &buffers.leaves),
-                    (2, &buffers.state),
-                    (3, &slots),
-                    (4, &grid_buffer),
-                ],
+                &inputs,
                 (5, a_leaf * part.len() as u64),
                 part.len() as u32 * grid.len() as u32,
             )?;

@@ -3,7 +3,7 @@
 use crate::KeyleafError;
 use crate::binding::{self, Binding};
 use crate::module::shader_module;
-use crate::settings::{BackFaces, Balance};
+use crate::settings::{BackFaces, Balance, Morph};
 use crate::surface_buffers::surface_layout;
 
 use Binding::{Absent, Read, Uniform, Write};
@@ -19,11 +19,21 @@ pub struct Kind {
     pub balance: Balance,
     /// What is done with triangles that are seen from behind.
     pub back_faces: BackFaces,
+    /// Where the vertices that a split adds are drawn. The passes are the same with and without.
+    pub morph: Morph,
     /// WGSL file by which a moving surface is posed.
     pub pose: Option<&'static str>,
 }
 
 impl Kind {
+    /// The WGSL files that say where vertices are drawn.
+    pub fn drawing_files(&self) -> Vec<&'static str> {
+        match self.morph {
+            Morph::None => vec![self.morph.shader(), self.surface],
+            Morph::Geomorph => vec![self.morph.shader(), self.metric, self.surface],
+        }
+    }
+
     /// Refuses to cull the faces of a surface that has no control net.
     ///
     /// # Errors

@@ -32,7 +32,7 @@ use crate::buffers::{Buffers, Groups, check_capacity};
 use crate::layout::{self, Control, Leaf, arguments, state};
 use crate::passes::{Kind, Passes, Stage};
 use crate::posing::Posing;
-use crate::settings::Balance;
+use crate::settings::{Balance, Morph};
 use crate::statistics::{Statistics, StatisticsReader};
 use crate::surface_buffers::SurfaceBuffers;
 use crate::view::{Frame, View};
@@ -55,8 +55,10 @@ pub struct Quadtree {
     needs_measure: bool,
     /// Where the control mesh moves and the GPU follows it.
     posing: Option<Posing>,
-    /// Of the last update.
+    /// Of the last update or look.
     frame: Option<Frame>,
+    /// What the last update was for.
+    refined: Option<View>,
 }
 
 /// The parts of a pass, in their order: the rows of the table above.
@@ -108,6 +110,7 @@ impl Quadtree {
             metric: settings.metric.shader(),
             balance: settings.balance,
             back_faces: settings.back_faces,
+            morph: settings.morph,
             pose: if settings.moving { surface.pose_shader() } else { None },
         }
     }
@@ -144,6 +147,7 @@ impl Quadtree {
             needs_measure: true,
             posing,
             frame: None,
+            refined: None,
         };
         let roots: Vec<Place> = quadtree.surface.topology().roots().collect();
         quadtree.write_leaves(queue, &roots);
@@ -312,6 +316,7 @@ impl Quadtree {
 
     /// Records the passes of a frame for a view: `settings.settle` of them. Nothing is submitted, nothing waits.
     pub fn update(&mut self, queue: &wgpu::Queue, encoder: &mut wgpu::CommandEncoder, view: &View) {
+        self.refined = Some(*view);
         self.prepare(queue, view);
         {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
@@ -324,7 +329,7 @@ impl Quadtree {
                 }
             }
         }
-        self.reader.record(encoder, &self.buffers.control);
+        self.finish(encoder);
     }
 
     /// As [`Quadtree::update`], every phase in a compute pass of its own, whose timestamps the caller names.
@@ -335,6 +340,7 @@ impl Quadtree {
         view: &View,
         mut timestamps: impl FnMut(Phase) -> Option<wgpu::ComputePassTimestampWrites<'a>>,
     ) {
+        self.refined = Some(*view);
         self.prepare(queue, view);
         for _ in 0..self.settings.settle {
             for phase in Phase::ALL {
@@ -344,6 +350,15 @@ impl Quadtree {
                 });
                 self.run(phase, &mut pass);
             }
+        }
+        self.finish(encoder);
+    }
+
+    /// What is copied after the passes.
+    fn finish(&mut self, encoder: &mut wgpu::CommandEncoder) {
+        if self.settings.morph != Morph::None {
+            let (from, to) = (std::mem::offset_of!(Control, pressure) as u64, Frame::pressure_offset());
+            encoder.copy_buffer_to_buffer(&self.buffers.control, from, &self.buffers.frame, to, Some(4));
         }
         self.reader.record(encoder, &self.buffers.control);
     }
@@ -357,8 +372,9 @@ impl Quadtree {
     /// What the passes read of a view.
     fn prepare(&mut self, queue: &wgpu::Queue, view: &View) {
         self.follow(queue, view);
-        let mut frame = Frame::new(
+        let mut frame = Frame::seen_from(
             view,
+            &self.refined.unwrap_or(*view),
             &self.world_from_object,
             self.surface_buffers.origin,
             &self.settings,
@@ -370,7 +386,8 @@ impl Quadtree {
         self.frame = Some(frame);
         let mut bytes = encase::UniformBuffer::new(Vec::new());
         if bytes.write(&frame).is_ok() {
-            queue.write_buffer(&self.buffers.frame, 0, &bytes.into_inner());
+            let without_pressure = &bytes.into_inner()[..Frame::pressure_offset() as usize];
+            queue.write_buffer(&self.buffers.frame, 0, without_pressure);
         }
     }
 

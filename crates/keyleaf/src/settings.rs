@@ -117,6 +117,15 @@ impl Metric {
         }
     }
 
+    /// Whether the size of a node is at least twice that of its children, so that the vertices of one level have arrived where
+    /// [`Morph::Geomorph`] takes them before those of the next start.
+    pub fn halves(&self) -> bool {
+        matches!(
+            self,
+            Self::Edge { .. } | Self::Distance { .. } | Self::Boundary { .. } | Self::LocalArea { .. }
+        )
+    }
+
     /// The twin in f64 of what the shader computes of a leaf that is drawn as 4^`base_grid` triangles.
     pub fn size(&self, base_grid: u32) -> MetricSize {
         match self {
@@ -224,6 +233,9 @@ pub struct Settings {
     pub balance: Balance,
     /// What is done with triangles that are seen from behind.
     pub back_faces: BackFaces,
+    /// Where the vertices that a split adds are drawn. May change from frame to frame, with another
+    /// [`LeafPipeline`](crate::draw::LeafPipeline).
+    pub morph: Morph,
     /// Whether the control mesh of the surface moves, see [`Quadtree::set_cage`](crate::Quadtree::set_cage).
     pub moving: bool,
 }
@@ -293,6 +305,39 @@ impl BackFaces {
     }
 }
 
+/// Where the vertices that a split adds are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Morph {
+    /// On the surface. Where the metric allows pixels, splits and merges are seen as small jumps.
+    #[default]
+    None,
+    /// First on the edge that they divide; then they slide to the surface while the wish goes on growing by half of the threshold. For
+    /// metrics that [halve](Metric::halves) from level to level. A vertex that slides takes up to five evaluations of the surface instead
+    /// of one. Leaves of one triangle never jump; of finer grids those beside a coarser leaf do a little, since their grid is turned.
+    Geomorph,
+}
+
+impl Morph {
+    /// All.
+    pub const ALL: [Self; 2] = [Self::None, Self::Geomorph];
+
+    /// The WGSL file that defines `drawn_frame`.
+    pub fn shader(self) -> &'static str {
+        match self {
+            Self::None => "morph/none.wgsl",
+            Self::Geomorph => "morph/geomorph.wgsl",
+        }
+    }
+
+    /// The name that `plan` and the program use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Geomorph => "geomorph",
+        }
+    }
+}
+
 /// How neighbours are kept from cracking.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Balance {
@@ -317,6 +362,7 @@ impl Default for Settings {
             cull: true,
             balance: Balance::Table,
             back_faces: BackFaces::Drawn,
+            morph: Morph::None,
             moving: false,
         }
     }
@@ -388,6 +434,12 @@ impl Settings {
             "guard_band",
             self.guard_band,
             "expected 0 or more",
+        )?;
+        check(
+            self.morph == Morph::None || self.metric.halves(),
+            "morph",
+            format!("{} with the metric {}", self.morph.name(), self.metric.name()),
+            "expected none, or one of the metrics edge, distance, boundary and local-area, which halve from level to level",
         )?;
         check(
             positive(self.guard_factor) && self.guard_factor <= 1.0,

@@ -32,6 +32,8 @@ pub enum Tint {
     Pairs,
     /// The wish of each leaf, metric over threshold: how near it is to its next change.
     Wish,
+    /// How far the vertices have come to the surface, where they [morph](crate::Morph).
+    Morph,
     /// World normals.
     Normal,
     /// Distance of the drawn triangles from the surface, in pixels.
@@ -40,11 +42,12 @@ pub enum Tint {
 
 impl Tint {
     /// All, the plain surface first.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::None,
         Self::Level,
         Self::Pairs,
         Self::Wish,
+        Self::Morph,
         Self::Normal,
         Self::Error,
     ];
@@ -56,6 +59,7 @@ impl Tint {
             Self::Level => "effects/tint_level.wgsl",
             Self::Pairs => "effects/tint_pairs.wgsl",
             Self::Wish => "effects/tint_wish.wgsl",
+            Self::Morph => "effects/tint_morph.wgsl",
             Self::Normal => "effects/tint_normal.wgsl",
             Self::Error => "effects/tint_error.wgsl",
         }
@@ -65,6 +69,7 @@ impl Tint {
     fn mark(self) -> &'static str {
         match self {
             Self::Wish => "draw/mark_wish.wgsl",
+            Self::Morph => "draw/mark_morph.wgsl",
             Self::Error => "draw/mark_error.wgsl",
             Self::None | Self::Level | Self::Pairs | Self::Normal => MARK_NONE,
         }

@@ -5,6 +5,7 @@ use crate::settings::Scale;
 use encase::ShaderType;
 use glam::{DAffine3, DMat3, DQuat, DVec3, Mat4, UVec2, Vec3, Vec4};
 use keyleaf_key::MAX_LEVEL;
+use keyleaf_surface::Geomorph;
 
 /// How a camera projects.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -177,15 +178,62 @@ pub struct Frame {
     pub view_serial: u32,
     /// For metrics that have one.
     pub metric_parameter: f32,
+    /// As `eye`: from where the leaves were refined.
+    pub refined_eye: Vec3,
+    /// Wish of a node that is as large as it is far away.
+    pub wish_when_near: f32,
+    /// Sixteenths of an octave by which the threshold is raised. The device's own: it is copied there after each update of a quadtree
+    /// whose vertices morph, and never written otherwise.
+    pub pressure: i32,
+}
+
+impl Frame {
+    /// Byte at which the pressure is; nothing follows it.
+    pub fn pressure_offset() -> u64 {
+        Self::min_size().get() - 16
+    }
+}
+
+impl View {
+    /// What says where the vertices of a morphing quadtree are drawn, in f64: of an object placed by `world_from_object`, while
+    /// [`threshold_factor`](crate::Statistics::threshold_factor) is 1.
+    pub fn geomorph(&self, world_from_object: &DAffine3, settings: &Settings) -> Geomorph {
+        let linear = world_from_object.matrix3;
+        let near = match self.projection {
+            Projection::Perspective { near, .. } => Some(near),
+            Projection::Orthographic { .. } => None,
+        };
+        Geomorph {
+            size: settings.metric.size(settings.base_grid),
+            base_grid: settings.base_grid,
+            wish_scale: wish_scale(self, linear, settings),
+            wish_when_near: wish_when_near(self, settings),
+            eye: world_from_object.inverse().transform_point3(self.eye),
+            world_from_object: linear,
+            near,
+        }
+    }
 }
 
 impl Frame {
     /// What `view` asks of a quadtree of an object placed by `world_from_object`, whose surface tables are relative to `origin`.
     pub fn new(view: &View, world_from_object: &DAffine3, origin: DVec3, settings: &Settings) -> Self {
+        Self::seen_from(view, view, world_from_object, origin, settings)
+    }
+
+    /// The same where the leaves were refined for another view than they are seen from.
+    pub fn seen_from(
+        view: &View,
+        refined: &View,
+        world_from_object: &DAffine3,
+        origin: DVec3,
+        settings: &Settings,
+    ) -> Self {
         let linear = world_from_object.matrix3;
         let view_from_world = DMat3::from_quat(view.orientation).transpose();
         let view_from_object = view_from_world * linear;
-        let eye = world_from_object.inverse().transform_point3(view.eye) - origin;
+        let [eye, refined_eye] =
+            [view, refined].map(|view| world_from_object.inverse().transform_point3(view.eye) - origin);
         let normal = linear.inverse().transpose() * linear.determinant().signum();
 
         // A plane n.p + d >= 0 of view space is (M^T n).p + d >= 0 in object space.
@@ -219,7 +267,7 @@ impl Frame {
             eye: eye.as_vec3(),
             near: near as f32,
             planes,
-            wish_scale: wish_scale(view, linear, settings) as f32,
+            wish_scale: wish_scale(refined, linear, settings) as f32,
             guard_factor: settings.guard_factor,
             without_distance: (orthographic || is_absolute).into(),
             max_level: settings.max_level.min(MAX_LEVEL - settings.base_grid),
@@ -229,6 +277,9 @@ impl Frame {
             base_grid: settings.base_grid,
             view_serial: 0,
             metric_parameter: settings.metric.parameter(),
+            refined_eye: refined_eye.as_vec3(),
+            wish_when_near: wish_when_near(refined, settings) as f32,
+            pressure: 0,
         }
     }
 }
@@ -245,6 +296,15 @@ fn wish_scale(view: &View, linear: DMat3, settings: &Settings) -> f64 {
             };
             factor / half_height
         }
+    }
+}
+
+/// The wish of a node that is as large as it is far away; 1 where the size is no length. Without a distance no node is near.
+fn wish_when_near(view: &View, settings: &Settings) -> f64 {
+    match (view.projection, settings.metric.scale(settings.base_grid)) {
+        (Projection::Orthographic { .. }, _) => 1e30,
+        (_, Scale::Pixels(pixels)) => view.pixels_per_unit() / pixels,
+        (_, Scale::Absolute(_) | Scale::Factor(_)) => 1.0,
     }
 }
 

@@ -3,7 +3,7 @@
 use super::isolation::isolated;
 use keyleaf::key::MAX_LEVEL;
 use keyleaf::surface::{BasisMethod, PatchKind, PatchSettings, Patches, Surface};
-use keyleaf::{BackFaces, Balance, Metric, Settings};
+use keyleaf::{BackFaces, Balance, Metric, Morph, Settings};
 use keyleaf_scene::scene::{GaussianShape, QasShape, QasVariant, Shape, Solver};
 use keyleaf_stage::{Loaded, LoadedObject};
 use std::sync::Arc;
@@ -153,6 +153,18 @@ pub fn all(loaded: &Loaded, quick: bool) -> Vec<Series> {
             pixels(&DEVIATIONS, |pixels| Metric::Deviation { pixels }),
         ));
     }
+    all.push(refining(
+        "edge, geomorph",
+        pixels(&EDGES, |pixels| Metric::Edge { pixels })
+            .into_iter()
+            .map(|(label, scene)| {
+                (
+                    label,
+                    with_settings(&scene, |settings| settings.morph = Morph::Geomorph),
+                )
+            })
+            .collect(),
+    ));
     let with = |change: &dyn Fn(&mut Settings)| with_settings(&compared(loaded), change);
     all.push(of_settings(
         "base grid, edge 8 px",

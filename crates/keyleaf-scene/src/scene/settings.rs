@@ -26,6 +26,8 @@ pub struct Settings {
     pub culling: Culling,
     /// What is done with triangles that are seen from behind. Default `Drawn`.
     pub back_faces: BackFaces,
+    /// Where the vertices that a split adds are drawn. Default `None`.
+    pub morph: Morph,
 }
 
 impl Default for Settings {
@@ -40,6 +42,7 @@ impl Default for Settings {
             guard_band: GuardBand::default(),
             culling: Culling::default(),
             back_faces: BackFaces::default(),
+            morph: Morph::default(),
         }
     }
 }
@@ -196,6 +199,17 @@ pub enum BackFaces {
     Strong,
     /// Faces that cannot face the eye are left out, by a cone of their normals. Changes no pixel.
     Conservative,
+}
+
+/// Where the vertices that a split adds are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum Morph {
+    /// On the surface at once.
+    #[default]
+    None,
+    /// First on the edge that they divide, from where they slide to the surface as the camera comes nearer: nothing jumps. For the metrics
+    /// `Edge`, `Distance`, `Boundary` and `LocalArea`.
+    Geomorph,
 }
 
 /// Settings that a surface has for itself; what is `None` is as in the scene.

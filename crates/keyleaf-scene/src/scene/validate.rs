@@ -8,7 +8,7 @@ use super::error::Problem;
 use super::validate_patches::{check_bezier, check_nurbs, check_patches};
 use super::validate_shape::{check_motion, check_shape};
 use super::{
-    CameraPath, Colouring, Effect, Light, Material, Metric, PathKey, Scene, Settings, SettingsOverrides, Source,
+    CameraPath, Colouring, Effect, Light, Material, Metric, Morph, PathKey, Scene, Settings, SettingsOverrides, Source,
     SurfaceEntry, TerrainSource, Threshold,
 };
 
@@ -146,6 +146,7 @@ pub(super) fn file_name(field: &str, name: &str) -> Checked {
 
 fn check_settings(settings: &Settings) -> Checked {
     check_metric("settings.metric", settings.metric)?;
+    check_morph("settings.metric", settings.metric, settings.morph)?;
     let count = |name: &str, value: u32, low: u32, high: u32| {
         within(&format!("settings.{name}"), value.into(), low.into(), high.into())
     };
@@ -191,6 +192,18 @@ fn check_metric(field: &str, metric: Metric) -> Checked {
             positive(field, value)
         }
     }
+}
+
+fn check_morph(field: &str, metric: Metric, morph: Morph) -> Checked {
+    let halves = matches!(
+        metric,
+        Metric::Edge { .. } | Metric::Distance { .. } | Metric::Boundary { .. } | Metric::LocalArea { .. }
+    );
+    if morph == Morph::None || halves {
+        return Ok(());
+    }
+    let problem = "vertices morph by metrics that halve from level to level; expected Edge, Distance, Boundary or LocalArea, or `morph: None`";
+    Err(Problem::new(field, problem))
 }
 
 fn check_max_level(field: &str, level: Option<u32>, settings: &Settings) -> Checked {
@@ -252,7 +265,11 @@ fn check_surface(field: &str, surface: &SurfaceEntry, settings: &Settings) -> Ch
         culling: _,
         back_faces: _,
     } = surface.settings;
-    optional(&format!("{field}.settings.metric"), metric, check_metric)?;
+    let metric_field = format!("{field}.settings.metric");
+    optional(&metric_field, metric, check_metric)?;
+    optional(&metric_field, metric, |field, metric| {
+        check_morph(field, metric, settings.morph)
+    })?;
     check_max_level(&format!("{field}.settings.max_level"), max_level, settings)
 }
 

@@ -5,6 +5,7 @@ use crate::panels::{metres, thousands};
 use crate::projection::Screen;
 use crate::viewer::Viewer;
 use egui::{Align2, Area, Color32, FontId, Frame, Id, Margin, Painter, Pos2, Rect, Shape, Stroke, Ui, pos2, vec2};
+use keyleaf::Morph;
 use keyleaf::shading::Tint;
 
 /// What is written over the scene stands on this.
@@ -124,6 +125,16 @@ fn legend(viewer: &Viewer, painter: &Painter) {
         Tint::Wish => {
             let ticks = [(0.0, "1/4 may merge"), (2.0 / 3.0, "1"), (1.0, "2 splits")];
             scale_legend(painter, at, "metric over threshold", &ticks);
+        }
+        Tint::Morph => {
+            let morphs = document.loaded.objects.iter().any(|o| o.settings.morph != Morph::None);
+            if morphs {
+                let ticks = [(0.0, "on the edge"), (1.0, "arrived")];
+                scale_legend(painter, at, "vertices on their way to the surface", &ticks);
+            } else {
+                let text = "no vertex morphs: see \"morph\" among the settings";
+                label(painter, at, Align2::LEFT_BOTTOM, text, INK);
+            }
         }
         Tint::Normal => {
             let text = "normals: red east, green up, blue south";

@@ -156,8 +156,13 @@ fn looks(viewer: &mut Viewer, ui: &mut Ui) {
         ),
         (
             Tint::Wish,
-            "Zones",
+            "Changes",
             "how near each leaf is to its next split or merge  (4)",
+        ),
+        (
+            Tint::Morph,
+            "Morph",
+            "how far new vertices have come to the surface, where they morph  (8)",
         ),
         (Tint::Normal, "Normals", "directions of the surface  (5)"),
         (

@@ -3,7 +3,7 @@
 use crate::action::Action;
 use crate::viewer::Viewer;
 use egui::{ComboBox, DragValue, Grid, RichText, Slider, Ui};
-use keyleaf_scene::scene::{BackFaces, Culling, Effect, Fog, Metric, Settings, Threshold};
+use keyleaf_scene::scene::{BackFaces, Culling, Effect, Fog, Metric, Morph, Settings, Threshold};
 
 /// The settings of the scene: what changes, changes at once.
 pub fn show(viewer: &mut Viewer, ui: &mut Ui) {
@@ -13,6 +13,7 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui) {
     let settings = &mut scene.settings;
     Grid::new("settings").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
         metric(ui, &mut settings.metric);
+        morph(ui, settings);
         numbers(ui, settings);
         limits(ui, settings);
         faces(ui, settings, has_nets);
@@ -168,6 +169,24 @@ fn metric(ui: &mut Ui, metric: &mut Metric) {
             ui.end_row();
         }
     }
+}
+
+/// Only metrics that halve from level to level have it; with another it goes out.
+fn morph(ui: &mut Ui, settings: &mut Settings) {
+    name(
+        ui,
+        "morph",
+        "vertices that a split adds slide from the edge that they divide to the surface, so that nothing jumps",
+    );
+    let halves = matches!(
+        settings.metric,
+        Metric::Edge { .. } | Metric::Distance { .. } | Metric::Boundary { .. } | Metric::LocalArea { .. }
+    );
+    let mut is_on = settings.morph == Morph::Geomorph && halves;
+    let switch = ui.add_enabled(halves, egui::Checkbox::new(&mut is_on, "new vertices slide"));
+    switch.on_disabled_hover_text("only with edge, distance, boundary and local area, which halve from level to level");
+    settings.morph = if is_on { Morph::Geomorph } else { Morph::None };
+    ui.end_row();
 }
 
 fn numbers(ui: &mut Ui, settings: &mut Settings) {

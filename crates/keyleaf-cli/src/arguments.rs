@@ -62,7 +62,7 @@ pub struct Overrides {
     #[arg(long, value_name = "HOW", value_parser = parse_back_faces)]
     pub back_faces: Option<BackFaces>,
     /// Where the vertices that a split adds are drawn: on the surface (none), or first on the edge that they divide, from where they slide
-    /// to the surface (geomorph)
+    /// to the surface (geomorph; with the metrics edge, distance, boundary and local-area)
     #[arg(long, value_name = "HOW", value_parser = parse_morph)]
     pub morph: Option<Morph>,
     /// Leaves that the buffers of a surface hold
@@ -147,7 +147,7 @@ impl Overrides {
             },
             _ => Metric::Edge { pixels },
         };
-        settings.metric = self.pixels.map(of_edges).or(self.metric).unwrap_or(settings.metric);
+        settings.set_metric(self.pixels.map(of_edges).or(self.metric).unwrap_or(settings.metric));
         settings.back_faces = self.back_faces.unwrap_or(settings.back_faces);
         settings.morph = self.morph.unwrap_or(settings.morph);
         settings.capacity = self.capacity.unwrap_or(settings.capacity);

@@ -23,7 +23,7 @@ use std::path::{Path, PathBuf};
 /// times. --sweep measures a setting at several values, one after another, or, with --interleave, in turn frame by frame, so that all see
 /// the same machine. `keyleaf compare` tells two runs, or two variants of a run, apart.
 ///
-/// Settings to sweep: edge, deviation (pixels), distance (a factor), base-grid, max-level, settle, guard, back-faces, neighbours (on or
+/// Settings to sweep: edge, deviation (pixels), distance (a factor), base-grid, max-level, settle, guard, back-faces, morph, neighbours (on or
 /// off: the test that keeps neighbours from cracking). Several sweeps are combined.
 #[derive(Args)]
 #[command(after_help = "Examples:

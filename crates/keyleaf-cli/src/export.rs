@@ -5,6 +5,7 @@ use crate::output::{self, thousands};
 use crate::{Outcome, progress, session};
 use anyhow::{bail, ensure};
 use clap::Args;
+use keyleaf::Morph;
 use keyleaf::headless::Headless;
 use keyleaf::key::{MAX_LEVEL, Place};
 use keyleaf::layout::MAX_CAPACITY;
@@ -66,6 +67,11 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
     let mut loaded = arguments.scene.load(quiet)?;
     loaded.pose(arguments.view.time)?;
     if let Some(level) = arguments.uniform {
+        // The surface, not what a view makes of it.
+        loaded
+            .objects
+            .iter_mut()
+            .for_each(|object| object.settings.morph = Morph::None);
         make_room(&mut loaded, level)?;
     }
     let gpu = session::device()?;

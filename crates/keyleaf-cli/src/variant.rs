@@ -89,9 +89,9 @@ fn apply(name: &str, value: &str, settings: &mut Settings) -> anyhow::Result<()>
     };
     let count = || value.parse::<u32>().with_context(wrong);
     match name {
-        "edge" => settings.metric = Metric::Edge { pixels: number()? },
-        "deviation" => settings.metric = Metric::Deviation { pixels: number()? },
-        "distance" => settings.metric = Metric::Distance { factor: number()? },
+        "edge" => settings.set_metric(Metric::Edge { pixels: number()? }),
+        "deviation" => settings.set_metric(Metric::Deviation { pixels: number()? }),
+        "distance" => settings.set_metric(Metric::Distance { factor: number()? }),
         "base-grid" => {
             settings.base_grid = count()?;
             settings.max_level = settings

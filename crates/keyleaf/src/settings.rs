@@ -374,6 +374,14 @@ impl Settings {
     /// The most passes a frame.
     pub const MAX_SETTLE: u32 = 64;
 
+    /// Takes another metric. With one that does not halve, vertices do not morph.
+    pub fn set_metric(&mut self, metric: Metric) {
+        self.metric = metric;
+        if !metric.halves() {
+            self.morph = Morph::None;
+        }
+    }
+
     /// Refuses what is outside the ranges given with the fields.
     ///
     /// # Errors

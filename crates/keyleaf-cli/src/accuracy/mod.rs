@@ -34,6 +34,7 @@ use crate::{Outcome, table};
 use anyhow::Context;
 use clap::{Args, ValueEnum};
 use glam::UVec2;
+use keyleaf::Morph;
 use keyleaf_report::report::Report;
 use keyleaf_report::{html, svg};
 use keyleaf_stage::{Loaded, LoadedObject, view_of};
@@ -152,6 +153,15 @@ impl Shown {
     }
 }
 
+/// Opens a scene whose vertices lie on the surface: what morphing costs is a series of its own.
+fn load_still(file: &Path, reading: &ReadingArguments, quiet: bool) -> anyhow::Result<Loaded> {
+    let still = Overrides {
+        morph: Some(Morph::None),
+        ..Overrides::default()
+    };
+    load_scene(file, reading, &still, quiet)
+}
+
 /// Runs the command.
 pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
     let Some(suite) = arguments.suite else {
@@ -164,7 +174,7 @@ pub fn run(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
     );
     // Bad input first: a device takes time to start.
     let scenes = arguments.scenes.iter().map(|file| {
-        let loaded = load_scene(file, &arguments.reading, &Overrides::default(), quiet)?;
+        let loaded = load_still(file, &arguments.reading, quiet)?;
         let camera = loaded.camera(arguments.camera.as_deref())?.name.clone();
         Ok((shown_of(suite, loaded)?, camera))
     });
@@ -240,7 +250,7 @@ fn write_report(arguments: &Arguments, quiet: bool) -> anyhow::Result<Outcome> {
         "{}: expected the name of an .html file",
         out.display()
     );
-    let load = |file: &PathBuf| load_scene(file, &arguments.reading, &Overrides::default(), quiet);
+    let load = |file: &PathBuf| load_still(file, &arguments.reading, quiet);
     let scenes: Vec<Loaded> = arguments.scenes.iter().map(load).collect::<anyhow::Result<_>>()?;
     let gpu = session::device()?;
     let effort = report::Effort { quick: arguments.quick };

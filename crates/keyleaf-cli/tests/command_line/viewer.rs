@@ -93,7 +93,7 @@ fn viewer_cameras_follow_pointer_and_keys() {
 #[test]
 fn viewer_freezes_and_switches_looks() {
     let folder = Folder::new("viewer-looks");
-    let toggles: String = ["1", "2", "3", "4", "5", "6", "7", "0", "1", "M", "I", "T"]
+    let toggles: String = ["1", "2", "3", "4", "5", "6", "7", "8", "0", "1", "M", "I", "T"]
         .map(|key| format!("Key(\"{key}\"), Settle,"))
         .concat();
     let steps = format!(

@@ -160,6 +160,11 @@ fn values_out_of_range_tell_line_and_field() {
         ("capacity: 100000", "capacity: 0", "s.ron:21:19: settings.capacity: 0"),
         ("settle: 2", "settle: 0", "settings.settle"),
         (
+            "Edge(pixels: 4)",
+            "Deviation(pixels: 4), morph: Geomorph",
+            "settings.metric: vertices morph by metrics that halve from level to level; expected Edge",
+        ),
+        (
             "target_leaves: 50000",
             "target_leaves: 500000",
             "settings.target_leaves: 500000",

@@ -11,11 +11,11 @@ fn leaf_mark(slot: u32, place: Place, is_pair: bool, i: u32, j: u32, here: vec3f
     let n = 1i << k;
     var worst = 0.0;
     for (var edge = 0u; edge < 3u; edge++) {
-        var step = grid_step(edge);
+        var step = grid_step(vec2u(i, j), edge, k);
         if !is_on_grid(at + step, n) {
             step = -step;
         }
-        if !is_on_grid(at + step, n) {
+        if !is_on_grid(at + step, n) || all(step == vec2i(0)) {
             continue;
         }
         let there = vec2u(at + step);

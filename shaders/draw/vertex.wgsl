@@ -11,7 +11,7 @@ struct Vertex {
     clip: vec4f,
     position: vec3f, // world axes, relative to the eye
     normal: vec3f,   // world, unit
-    grid: vec2f,     // base grid, in cells
+    grid: vec2f,     // base grid, in cells, for lines along its edges
     leaf: u32,       // level, and 0x100 for a pair; the upper half is what `leaf_mark` says, as f16
     face: u32,
     at: FaceCoord,
@@ -31,7 +31,7 @@ fn leaf_vertex(instance: u32, grid: u32) -> Vertex {
         frame.clip_from_view * vec4f(seen.xyz, 1.0),
         (frame.world_from_object * from_eye).xyz,
         normalize((frame.normal_from_object * vec4f(on.normal, 0.0)).xyz),
-        vec2f(f32(i), f32(j)),
+        vec2f(f32(i + select(0u, 1u, frame.base_grid == 0u)), f32(j)), // a single triangle fills a square whose sum is odd
         place.level | select(0u, 0x100u, is_pair) | leaf_mark(slot, place, is_pair, i, j, on.position),
         place.face,
         at,

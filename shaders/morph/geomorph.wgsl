@@ -12,6 +12,17 @@
 const MORPH_WIDTH: f32 = 0.5;
 const LATEST_START: f32 = 1.5;
 
+// The base grid is the leaf split k times: its diagonals join vertices whose coordinates have an even sum, those of a single triangle
+// excepted.
+fn diagonal_line(grid: vec2f) -> f32 {
+    let square = vec2i(floor(grid));
+    return select(grid.x - grid.y, grid.x + grid.y, ((square.x + square.y) & 1) == 1);
+}
+
+fn diagonal_step(at: vec2u, k: u32) -> vec2i {
+    return select(vec2i(0), vec2i(1, -1), k == 0u || ((at.x + at.y) & 1u) == 0u);
+}
+
 // The leaf of a level with its right angle in the given square of the lattice of that level, in squares. Below the root, right angles are
 // where the sum of the coordinates is odd; hypotenuses join the others.
 fn leaf_in_square(face: u32, root: u32, square: vec2u, level: u32) -> Place {
@@ -80,12 +91,14 @@ fn vertex_part(face: u32, at: FaceCoord, position: vec3f) -> f32 {
     return saturate((size * frame.wish_scale * pressure / distance - start) / MORPH_WIDTH);
 }
 
-// From a vertex to one end of the edge that it divides, which runs along the lattice or along the hypotenuse of the split leaf.
+// From a vertex to one end of the edge that it divides, which runs along the lattice or along the hypotenuse of the triangle of the next
+// coarser grid.
 fn half_edge_of(face: u32, at: FaceCoord) -> vec2u {
     let zeros = zeros_of(at);
-    let is_odd = ((vec2u(at.x, at.y) >> vec2u(zeros)) & vec2u(1u)) == vec2u(1u);
+    let point = vec2u(at.x, at.y);
+    let is_odd = ((point >> vec2u(zeros)) & vec2u(1u)) == vec2u(1u);
     let half = select(vec2u(0u), vec2u(1u << zeros), is_odd);
-    let leaf = leaf_in_square(face, at.root, square_of(at), split_level(at));
+    let leaf = leaf_in_square(face, at.root, point >> vec2u(zeros + 1u), MAX_LEVEL - zeros - 1u);
     return select(half, vec2u(half.x, 0u - half.y), all(is_odd) && leaf.orientation == 0u);
 }
 

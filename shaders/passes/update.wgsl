@@ -38,6 +38,7 @@ struct Terms {
     near: f32,
     guard_factor: f32,
     without_distance: bool,
+    slack: f32,        // how far drawn vertices may be from the surface, at distance 1
     side: f32,         // -1 for mirrored objects, 0 where the eye is nowhere
     has_requests: bool,
     counts_near: bool,
@@ -55,6 +56,7 @@ fn terms(has_requests: bool) -> Terms {
     t.near = frame.near;
     t.guard_factor = frame.guard_factor;
     t.without_distance = frame.without_distance == 1u;
+    t.slack = frame.morph_slack / t.scale;
     t.has_requests = has_requests;
     t.counts_near = control.pressure > 0;
     for (var i = 0u; i < 6u; i++) {
@@ -71,12 +73,16 @@ fn is_outside(planes: array<vec4f, 6>, centre: vec3f, radius: f32) -> bool {
     return min(sides, min(dot(planes[4], at), dot(planes[5], at))) < -radius;
 }
 
+// As metrics count it.
+fn distance_of(centre: vec3f, t: Terms) -> f32 {
+    let there = t.world_from_object * centre;
+    return select(max(sqrt(dot(there, there)), t.near), 1.0, t.without_distance);
+}
+
 // Metric over threshold; more than 1 asks for a split. `centre` is relative to the eye, in object space. Clamped at the near plane,
 // so that a camera on the surface gets a finite wish.
 fn wish(centre: vec3f, size: f32, guard: f32, t: Terms) -> f32 {
-    let there = t.world_from_object * centre;
-    let distance = select(max(sqrt(dot(there, there)), t.near), 1.0, t.without_distance);
-    let inside = size * t.scale / distance;
+    let inside = size * t.scale / distance_of(centre, t);
     return quantise(select(inside, inside * t.guard_factor, is_outside(t.guard, centre, guard)));
 }
 
@@ -102,7 +108,8 @@ fn publish(slot: u32, t: Terms) -> u32 {
     // The odd half of a pair is not drawn: the even one takes its place, and reaches as far as their parent.
     let is_pair = (before & PAIR) != 0u;
     let hidden = is_pair && (digit & 1u) == 1u;
-    let seen = select(vec4f(centre, measure.radius), vec4f(parent.xyz, measure.parent_radius), is_pair);
+    var seen = select(vec4f(centre, measure.radius), vec4f(parent.xyz, measure.parent_radius), is_pair);
+    seen.w += t.slack * distance_of(centre, t);
     return select(0u, VISIBLE, !hidden && !is_outside(t.culling, seen.xyz, seen.w) && may_face_eye(slot, seen, t.side))
         | select(0u, SPLITTER, wanted > 1.0)
         | select(0u, MERGER, merges)

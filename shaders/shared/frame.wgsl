@@ -21,6 +21,7 @@ struct Frame {
     metric_parameter: f32,      // for metrics that have one
     refined_eye: vec3f,         // as `eye`: from where the leaves were refined
     wish_when_near: f32,        // wish of a node that is as large as it is far away, where the metric is a length
+    morph_slack: f32,           // how far vertices may be from the surface: distance, over wish_scale; 0 where they do not morph
     pressure: i32,              // as in Control, after the last update; only where vertices morph
 }
 

@@ -135,7 +135,8 @@ fn frame() {
         metric_parameter: 12.0,
         refined_eye: Vec3::splat(13.0),
         wish_when_near: 14.0,
-        pressure: 15,
+        morph_slack: 15.0,
+        pressure: 16,
     };
     let f = f32::to_bits;
     let words = [
@@ -158,7 +159,8 @@ fn frame() {
         ("metric_parameter", f(12.0)),
         ("refined_eye", f(13.0)),
         ("wish_when_near", f(14.0)),
-        ("pressure", 15),
+        ("morph_slack", f(15.0)),
+        ("pressure", 16),
     ];
     assert_uniform(&["shared/frame.wgsl"], "Frame", &value, &words);
     let (found, _) = members(&parse(&["shared/frame.wgsl"]), "Frame");

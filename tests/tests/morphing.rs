@@ -4,12 +4,12 @@ use crate::random::Random;
 use crate::surfaces;
 use crate::watertight::{Drawn, check, draw};
 use crate::world::{World, random_view, settings, size_of_box};
-use glam::{DAffine3, DQuat, DVec3, UVec2, Vec3};
-use keyleaf::key::{RootPoint, Site, Topology};
+use glam::{DAffine3, DQuat, DVec2, DVec3, UVec2, Vec3};
+use keyleaf::key::{RootPoint, Site};
 use keyleaf::read_back::Snapshot;
 use keyleaf::surface::{Geomorph, Insertion, Surface};
 use keyleaf::{KeyleafError, Metric, Morph, Settings, View};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 fn morphing(metric: Metric, k: u32) -> Settings {
@@ -103,7 +103,6 @@ fn every_metric_that_halves_moves_vertices() {
     let surface = [surface, surfaces::terrain()];
     for metric in [
         Metric::Edge { pixels: 30.0 },
-        Metric::Distance { factor: 0.3 },
         Metric::LocalArea { pixels: 30.0 },
         Metric::Boundary {
             pixels: 30.0,
@@ -121,38 +120,73 @@ fn every_metric_that_halves_moves_vertices() {
     }
 }
 
-/// The positions of the drawn vertices.
-fn positions(drawn: &Drawn) -> HashMap<Site, (RootPoint, DVec3)> {
-    let at = |(site, at, position, _): &(Site, RootPoint, [f32; 3], [f32; 3])| {
-        (*site, (*at, Vec3::from(*position).as_dvec3()))
-    };
-    drawn.vertices.iter().map(at).collect()
+/// The triangles of each root, by the places of their corners in it.
+type Roots<'a> = HashMap<(u32, u32), Vec<[&'a (Site, RootPoint, [f32; 3], [f32; 3]); 3]>>;
+
+fn by_root(drawn: &Drawn) -> Roots<'_> {
+    let mut roots = Roots::new();
+    for triangle in &drawn.triangles {
+        let corners = triangle.map(|corner| &drawn.vertices[corner]);
+        let RootPoint { face, root, .. } = corners[0].1;
+        roots.entry((face, root)).or_default().push(corners);
+    }
+    roots
 }
 
-/// How far the vertices that only `these` has are from the edges that they divide, at most, in pixels.
-fn jump(topology: &Topology, these: &Drawn, others: &Drawn, pixels: impl Fn(DVec3, f64) -> f64) -> f64 {
-    let (these, others) = (positions(these), positions(others));
-    let new = these.iter().filter(|(site, _)| !others.contains_key(site));
-    new.filter_map(|(_, (at, position))| {
-        let ends = Insertion::of(topology, *at, 0)?.ends.map(|end| Site::of(topology, end));
-        let [from, to] = [these.get(&ends[0])?.1, these.get(&ends[1])?.1];
-        Some(pixels(*position, position.distance(from.midpoint(to))))
+/// Where the drawn triangles are at a point of the surface.
+fn drawn_at(roots: &Roots<'_>, at: RootPoint) -> Option<DVec3> {
+    let flat = |p: RootPoint| DVec2::new(p.x.into(), p.y.into());
+    roots.get(&(at.face, at.root))?.iter().find_map(|corners| {
+        let [a, b, c] = corners.map(|corner| flat(corner.1));
+        let area = (b - a).perp_dot(c - a);
+        let [u, v] = [
+            (flat(at) - a).perp_dot(c - a) / area,
+            (b - a).perp_dot(flat(at) - a) / area,
+        ];
+        let positions = corners.map(|corner| Vec3::from(corner.2).as_dvec3());
+        let is_inside = u >= 0.0 && v >= 0.0 && u + v <= 1.0;
+        is_inside.then(|| positions[0] * (1.0 - u - v) + positions[1] * u + positions[2] * v)
     })
-    .fold(0.0, f64::max)
+}
+
+/// How far the drawn surface of `before` is from the vertices of `after`, at most, in pixels.
+fn jump(after: &Drawn, before: &Drawn, pixels: impl Fn(DVec3, f64) -> f64) -> f64 {
+    let roots = by_root(before);
+    let known: HashSet<(RootPoint, [u32; 3])> = before
+        .vertices
+        .iter()
+        .map(|(_, at, position, _)| (*at, position.map(f32::to_bits)))
+        .collect();
+    let moved = after
+        .vertices
+        .iter()
+        .filter(|(_, at, position, _)| !known.contains(&(*at, position.map(f32::to_bits))));
+    moved
+        .filter_map(|(_, at, position, _)| {
+            let position = Vec3::from(*position).as_dvec3();
+            Some(pixels(position, position.distance(drawn_at(&roots, *at)?)))
+        })
+        .fold(0.0, f64::max)
 }
 
 /// The largest jump and how many changes there were, while a camera flies by in small steps and the leaves settle at each.
-fn flight(surface: &Arc<dyn Surface>, morph: Morph) -> (f64, usize) {
+fn flight(surface: &Arc<dyn Surface>, pixels: f32, k: u32, morph: Morph) -> (f64, usize) {
     let settings = Settings {
         morph,
-        ..morphing(Metric::Edge { pixels: 60.0 }, 0)
+        capacity: 20_000,
+        ..morphing(
+            Metric::Edge {
+                pixels: pixels / (1 << k) as f32, // the same leaves, whatever the grid
+            },
+            k,
+        )
     };
     let mut world = World::new(surface, settings);
     let (low, high) = surface.bounding_box();
     let size = size_of_box((low, high));
     let view_at = |step: u32| {
         let along = f64::from(step) / 40.0;
-        let eye = low.lerp(high, 0.5) + size * DVec3::new(0.9 - 0.12 * along, 0.6, 0.7 - 0.2 * along);
+        let eye = low.lerp(high, 0.5) + size * DVec3::new(0.9 - 0.02 * along, 0.6, 0.7 - 0.03 * along);
         View::look_at(eye, low.lerp(high, 0.5), 0.9, 1e-3 * size, UVec2::new(640, 400))
     };
     let mut before: Option<Drawn> = None;
@@ -165,9 +199,9 @@ fn flight(surface: &Arc<dyn Surface>, morph: Morph) -> (f64, usize) {
         if let Some(before) = &before {
             let pixels =
                 |at: DVec3, length: f64| length * view.pixels_per_unit() / at.distance(view.eye).max(1e-3 * size);
-            let topology = surface.topology();
-            let at_once = jump(topology, &drawn, before, pixels).max(jump(topology, before, &drawn, pixels));
-            largest = largest.max(at_once);
+            largest = largest
+                .max(jump(&drawn, before, pixels))
+                .max(jump(before, &drawn, pixels));
             changes += drawn.vertices.len().abs_diff(before.vertices.len());
         }
         before = Some(drawn);
@@ -177,21 +211,24 @@ fn flight(surface: &Arc<dyn Surface>, morph: Morph) -> (f64, usize) {
 
 #[test]
 fn no_split_and_no_merge_is_seen() {
-    for (name, surface) in [
-        ("terrain", surfaces::terrain()),
-        ("cube with noise", surfaces::by_noise(&crate::meshes::cube())),
+    for (name, surface, pixels) in [
+        ("terrain", surfaces::terrain(), 60.0),
+        ("cube with noise", surfaces::by_noise(&crate::meshes::cube()), 30.0),
     ] {
-        let (without, _) = flight(&surface, Morph::None);
-        let (with, changes) = flight(&surface, Morph::Geomorph);
-        println!("{name}: jumps of {without:.3} pixels without, {with:.4} with, {changes} changes");
-        assert!(without > 0.5 && changes > 50, "{name}: {without}, {changes}");
-        assert!(with < 0.02 * without, "{name}: {with} against {without}");
+        for k in 0..3 {
+            let (without, _) = flight(&surface, pixels, k, Morph::None);
+            let (with, changes) = flight(&surface, pixels, k, Morph::Geomorph);
+            println!("{name}, base grid {k}: jumps of {without:.3} pixels without, {with:.4} with, {changes} changes");
+            assert!(without > 0.1 && changes > 20, "{name}: {without}, {changes}");
+            assert!(with < 0.02 * without, "{name}: {with} against {without}");
+        }
     }
 }
 
 #[test]
 fn metrics_that_do_not_halve_are_refused() {
     for metric in [
+        Metric::Distance { factor: 1.0 },
         Metric::Deviation { pixels: 1.0 },
         Metric::LinearApproximation { pixels: 1.0 },
     ] {

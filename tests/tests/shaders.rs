@@ -125,7 +125,7 @@ fn combinations() -> BTreeSet<Vec<&'static str>> {
             all.insert(drawn(&channel.files(), Morph::Geomorph, edge));
         }
         all.insert(drawn(&[emit], Morph::None, edge));
-        for metric in ["edge", "distance", "boundary", "local_area"] {
+        for metric in ["edge", "boundary", "local_area"] {
             let metric = files_in("metrics/")
                 .into_iter()
                 .find(|file| *file == format!("metrics/{metric}.wgsl"));

@@ -36,7 +36,7 @@ pub struct Drawn {
 pub fn draw(world: &World, snapshot: &Snapshot) -> Drawn {
     let topology = world.surface.topology();
     let k = world.quadtree.settings().base_grid;
-    let grid = BaseGrid::new(k);
+    let grid = BaseGrid::of(world.quadtree.settings());
     let slots = drawn_slots(snapshot);
     let emitted = world.emit(&slots);
     let mut drawn = Drawn {

@@ -62,7 +62,7 @@ pub struct Overrides {
     #[arg(long, value_name = "HOW", value_parser = parse_back_faces)]
     pub back_faces: Option<BackFaces>,
     /// Where the vertices that a split adds are drawn: on the surface (none), or first on the edge that they divide, from where they slide
-    /// to the surface (geomorph; with the metrics edge, distance, boundary and local-area)
+    /// to the surface (geomorph; with the metrics edge, boundary and local-area)
     #[arg(long, value_name = "HOW", value_parser = parse_morph)]
     pub morph: Option<Morph>,
     /// Leaves that the buffers of a surface hold

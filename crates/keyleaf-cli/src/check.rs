@@ -181,7 +181,7 @@ fn picture(
         let snapshot = quadtree.read_back(&gpu.device, &gpu.queue)?;
         let sight = Sight::new(view, quadtree.world_from_object(), quadtree.origin());
         let is_two_sided = quadtree.settings().back_faces == BackFaces::Drawn;
-        let grid = BaseGrid::new(quadtree.settings().base_grid);
+        let grid = BaseGrid::of(quadtree.settings());
         let indices = Arc::from(grid.indices);
         let emitted = inspector.emit(&gpu.device, &gpu.queue, quadtree, &snapshot.visible)?;
         for (slot, vertices) in snapshot

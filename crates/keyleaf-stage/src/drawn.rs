@@ -43,7 +43,7 @@ pub fn drawn(gpu: &Headless, quadtree: &Quadtree) -> Result<Drawn, KeyleafError>
     let mut slots = snapshot.visible.clone();
     slots.sort_by_key(|&slot| snapshot.leaves[slot as usize].place());
     let k = quadtree.settings().base_grid;
-    let grid = BaseGrid::new(k);
+    let grid = BaseGrid::of(quadtree.settings());
     let mut drawn = Drawn::default();
     for piece in slots.chunks(PIECE) {
         let emitted = inspector.emit(&gpu.device, &gpu.queue, quadtree, piece)?;

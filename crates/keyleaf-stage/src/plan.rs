@@ -184,7 +184,7 @@ fn surface(
         surface: kind.surface.to_owned(),
         metric: object.settings.metric.name().to_owned(),
         history_dependent: !object.settings.metric.is_nested(),
-        back_faces: object.settings.back_faces.name().to_owned(),
+        back_faces: object.settings.drawn_faces().name().to_owned(),
         approximate: object.settings.back_faces.is_approximate(),
         morph: object.settings.morph.name().to_owned(),
         faces: topology.face_count(),

@@ -198,7 +198,7 @@ impl Stage {
             now.capacity == wanted.capacity
                 && now.metric.shader() == wanted.metric.shader()
                 && now.balance == wanted.balance
-                && now.back_faces == wanted.back_faces
+                && now.drawn_faces() == wanted.drawn_faces()
                 && now.moving == wanted.moving
         });
         if !keeps_buffers {

@@ -56,16 +56,16 @@ impl Insertion {
     pub fn of(topology: &Topology, at: RootPoint, base_grid: u32) -> Option<Self> {
         let zeros = at.x.trailing_zeros().min(at.y.trailing_zeros()).min(MAX_LEVEL);
         let level = (MAX_LEVEL - zeros).checked_sub(base_grid + 1)?;
-        let leaf = descend(at, level)?;
-        let (a, b) = local(leaf, at);
-        let half = leaf.unit() >> (base_grid + 1);
-        let is_between = |value: u32| value & half != 0;
-        let ends = match (is_between(a), is_between(b)) {
-            (true, true) => [leaf.at(a + half, b - half), leaf.at(a - half, b + half)],
-            (true, false) => [leaf.at(a + half, b), leaf.at(a - half, b)],
-            _ => [leaf.at(a, b + half), leaf.at(a, b - half)],
+        // The triangle of the next coarser grid, of which it divides an edge.
+        let coarse = descend(at, level + base_grid)?;
+        let unit = coarse.unit();
+        let ends = match local(coarse, at) {
+            (0, _) => [coarse.at(0, 0), coarse.at(0, unit)],
+            (_, 0) => [coarse.at(0, 0), coarse.at(unit, 0)],
+            _ => [coarse.at(unit, 0), coarse.at(0, unit)],
         };
-        let beside = match (a, b) {
+        let leaf = descend(at, level)?;
+        let beside = match local(leaf, at) {
             (0, _) => Some(neighbour::y(topology, leaf)),
             (_, 0) => Some(neighbour::x(topology, leaf)),
             _ => None,

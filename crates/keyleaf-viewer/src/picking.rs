@@ -83,7 +83,7 @@ impl Picker {
                 std::collections::hash_map::Entry::Vacant(entry) => entry.insert(Inspector::new(&gpu.device, &kind)?),
             };
             let snapshot = quadtree.read_back(&gpu.device, &gpu.queue)?;
-            let grid = BaseGrid::new(quadtree.settings().base_grid);
+            let grid = BaseGrid::of(quadtree.settings());
             for slots in snapshot.visible.chunks(PIECE) {
                 let emitted = inspector.emit(&gpu.device, &gpu.queue, quadtree, slots)?;
                 let reach = nearest.as_ref().map_or(f64::INFINITY, |hit| hit.distance);

@@ -41,7 +41,7 @@ pub(crate) fn check_capacity(
     surface: &dyn Surface,
     settings: &Settings,
 ) -> Result<(), KeyleafError> {
-    let (capacity, back_faces) = (settings.capacity, settings.back_faces);
+    let (capacity, back_faces) = (settings.capacity, settings.drawn_faces());
     let roots = surface.topology().half_edge_count();
     if capacity < roots {
         return Err(KeyleafError::CapacityBelowRoots { capacity, roots });
@@ -80,7 +80,7 @@ impl Buffers {
         };
         let storage = U::STORAGE | U::COPY_DST | U::COPY_SRC;
         let sized = |name: &str| {
-            let bytes = layout::buffer_bytes(settings.capacity, settings.back_faces)
+            let bytes = layout::buffer_bytes(settings.capacity, settings.drawn_faces())
                 .iter()
                 .find(|(n, _)| *n == name)
                 .map_or(16, |(_, b)| (*b).max(16));

@@ -254,7 +254,7 @@ impl LeafDraw {
             leaves,
             look,
             shading,
-            grid: GridBuffers::new(device, quadtree.settings().base_grid),
+            grid: GridBuffers::new(device, quadtree.settings()),
             bytes,
         }
     }
@@ -262,9 +262,8 @@ impl LeafDraw {
     /// Writes the light of this frame, and the base grid if its setting has changed.
     pub fn prepare(&mut self, device: &wgpu::Device, queue: &wgpu::Queue, quadtree: &Quadtree, shading: &Shading) {
         write_uniform(queue, &self.shading, shading);
-        let k = quadtree.settings().base_grid;
-        if self.grid.k != k {
-            self.grid = GridBuffers::new(device, k);
+        if !self.grid.is_of(quadtree.settings()) {
+            self.grid = GridBuffers::new(device, quadtree.settings());
         }
     }
 

@@ -104,7 +104,7 @@ impl Inspector {
         slots: &[u32],
     ) -> Result<Emitted, KeyleafError> {
         let k = quadtree.settings().base_grid;
-        let grid = BaseGrid::new(k).vertices;
+        let grid = BaseGrid::of(quadtree.settings()).vertices;
         let a_leaf = 32 * grid.len() as u64;
         let piece = (PIECE.min(device.limits().max_storage_buffer_binding_size) / a_leaf).max(1) as usize;
         let buffers = quadtree.buffers();

@@ -109,7 +109,7 @@ impl Quadtree {
             surface: surface.shader(),
             metric: settings.metric.shader(),
             balance: settings.balance,
-            back_faces: settings.back_faces,
+            back_faces: settings.drawn_faces(),
             morph: settings.morph,
             pose: if settings.moving { surface.pose_shader() } else { None },
         }
@@ -131,7 +131,7 @@ impl Quadtree {
         check_capacity(device, surface.as_ref(), &settings)?;
         let surface_buffers =
             SurfaceBuffers::new(device, queue, &passes.surface_layout, surface.as_ref(), DVec3::ZERO)?;
-        let culled = settings.back_faces.shader().map(|_| surface.topology().face_count());
+        let culled = settings.drawn_faces().shader().map(|_| surface.topology().face_count());
         let buffers = Buffers::new(device, &settings, culled);
         let groups = Groups::new(device, &passes, &buffers);
         let posing = Posing::new(device, &passes, surface.as_ref(), &surface_buffers)?;
@@ -201,7 +201,7 @@ impl Quadtree {
         if settings.balance != self.settings.balance {
             return fixed("balance", format!("{:?}", settings.balance));
         }
-        if settings.back_faces != self.settings.back_faces {
+        if settings.drawn_faces() != self.settings.drawn_faces() {
             return fixed("back_faces", settings.back_faces.name().to_owned());
         }
         if settings.moving != self.settings.moving {
@@ -518,7 +518,7 @@ impl Quadtree {
 
     /// (name, bytes) of every buffer and texture.
     pub fn memory(&self) -> Vec<(&'static str, u64)> {
-        let mut all = layout::buffer_bytes(self.settings.capacity, self.settings.back_faces).to_vec();
+        let mut all = layout::buffer_bytes(self.settings.capacity, self.settings.drawn_faces()).to_vec();
         all.push(("frame", self.buffers.frame.size()));
         all.push(("control", self.buffers.control.size()));
         all.push(("arguments", self.buffers.arguments.size()));

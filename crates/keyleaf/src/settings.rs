@@ -117,13 +117,10 @@ impl Metric {
         }
     }
 
-    /// Whether the size of a node is at least twice that of its children, so that the vertices of one level have arrived where
+    /// Whether the size of a node is a length that bounds its edges, and at least twice that of its children, so that the vertices of one level have arrived where
     /// [`Morph::Geomorph`] takes them before those of the next start.
     pub fn halves(&self) -> bool {
-        matches!(
-            self,
-            Self::Edge { .. } | Self::Distance { .. } | Self::Boundary { .. } | Self::LocalArea { .. }
-        )
+        matches!(self, Self::Edge { .. } | Self::Boundary { .. } | Self::LocalArea { .. })
     }
 
     /// The twin in f64 of what the shader computes of a leaf that is drawn as 4^`base_grid` triangles.
@@ -313,7 +310,7 @@ pub enum Morph {
     None,
     /// First on the edge that they divide; then they slide to the surface while the wish goes on growing by half of the threshold. For
     /// metrics that [halve](Metric::halves) from level to level. A vertex that slides takes up to five evaluations of the surface instead
-    /// of one. Leaves of one triangle never jump; of finer grids those beside a coarser leaf do a little, since their grid is turned.
+    /// of one; [`BackFaces::Leaves`] and [`BackFaces::Conservative`] leave nothing out, as [`BackFaces::Hidden`].
     Geomorph,
 }
 
@@ -373,6 +370,14 @@ impl Settings {
     pub const MAX_BASE_GRID: u32 = 6;
     /// The most passes a frame.
     pub const MAX_SETTLE: u32 = 64;
+
+    /// What is done with triangles that are seen from behind: normal cones know nothing of vertices on their way.
+    pub fn drawn_faces(&self) -> BackFaces {
+        match (self.morph, self.back_faces) {
+            (Morph::Geomorph, BackFaces::Leaves | BackFaces::Conservative) => BackFaces::Hidden,
+            (_, back_faces) => back_faces,
+        }
+    }
 
     /// Takes another metric. With one that does not halve, vertices do not morph.
     pub fn set_metric(&mut self, metric: Metric) {
@@ -447,7 +452,7 @@ impl Settings {
             self.morph == Morph::None || self.metric.halves(),
             "morph",
             format!("{} with the metric {}", self.morph.name(), self.metric.name()),
-            "expected none, or one of the metrics edge, distance, boundary and local-area, which halve from level to level",
+            "expected none, or one of the metrics edge, boundary and local-area, lengths that halve from level to level",
         )?;
         check(
             positive(self.guard_factor) && self.guard_factor <= 1.0,

@@ -1,7 +1,7 @@
 //! A camera, and what it asks of a quadtree.
 
 use crate::Settings;
-use crate::settings::Scale;
+use crate::settings::{Morph, Scale};
 use encase::ShaderType;
 use glam::{DAffine3, DMat3, DQuat, DVec3, Mat4, UVec2, Vec3, Vec4};
 use keyleaf_key::MAX_LEVEL;
@@ -182,6 +182,8 @@ pub struct Frame {
     pub refined_eye: Vec3,
     /// Wish of a node that is as large as it is far away.
     pub wish_when_near: f32,
+    /// How far vertices may be from the surface, in object units: this times the world distance over `wish_scale`.
+    pub morph_slack: f32,
     /// Sixteenths of an octave by which the threshold is raised. The device's own: it is copied there after each update of a quadtree
     /// whose vertices morph, and never written otherwise.
     pub pressure: i32,
@@ -190,7 +192,7 @@ pub struct Frame {
 impl Frame {
     /// Byte at which the pressure is; nothing follows it.
     pub fn pressure_offset() -> u64 {
-        Self::min_size().get() - 16
+        Self::METADATA.last_offset()
     }
 }
 
@@ -279,6 +281,11 @@ impl Frame {
             metric_parameter: settings.metric.parameter(),
             refined_eye: refined_eye.as_vec3(),
             wish_when_near: wish_when_near(refined, settings) as f32,
+            morph_slack: match settings.morph {
+                Morph::None => 0.0,
+                // While it is on its way, the wish is below 2, and an edge shorter than twice the size.
+                Morph::Geomorph => 4.0 / (1u32 << settings.base_grid) as f32,
+            },
             pressure: 0,
         }
     }
@@ -304,7 +311,7 @@ fn wish_when_near(view: &View, settings: &Settings) -> f64 {
     match (view.projection, settings.metric.scale(settings.base_grid)) {
         (Projection::Orthographic { .. }, _) => 1e30,
         (_, Scale::Pixels(pixels)) => view.pixels_per_unit() / pixels,
-        (_, Scale::Absolute(_) | Scale::Factor(_)) => 1.0,
+        (_, Scale::Absolute(_) | Scale::Factor(_)) => 1.0, // no metric by which vertices morph
     }
 }
 

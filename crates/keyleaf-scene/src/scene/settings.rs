@@ -208,7 +208,7 @@ pub enum Morph {
     #[default]
     None,
     /// First on the edge that they divide, from where they slide to the surface as the camera comes nearer: nothing jumps. For the metrics
-    /// `Edge`, `Distance`, `Boundary` and `LocalArea`.
+    /// `Edge`, `Boundary` and `LocalArea`.
     Geomorph,
 }
 

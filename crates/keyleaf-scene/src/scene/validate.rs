@@ -197,12 +197,12 @@ fn check_metric(field: &str, metric: Metric) -> Checked {
 fn check_morph(field: &str, metric: Metric, morph: Morph) -> Checked {
     let halves = matches!(
         metric,
-        Metric::Edge { .. } | Metric::Distance { .. } | Metric::Boundary { .. } | Metric::LocalArea { .. }
+        Metric::Edge { .. } | Metric::Boundary { .. } | Metric::LocalArea { .. }
     );
     if morph == Morph::None || halves {
         return Ok(());
     }
-    let problem = "vertices morph by metrics that halve from level to level; expected Edge, Distance, Boundary or LocalArea, or `morph: None`";
+    let problem = "vertices morph by metrics that halve from level to level; expected Edge, Boundary or LocalArea, or `morph: None`";
     Err(Problem::new(field, problem))
 }
 

@@ -96,7 +96,7 @@ pub(super) fn check<E>(
             };
             check_vertices(&drawn, snapshot, findings);
             if let Some(sight) = sight.filter(|_| !leaves.visible[slot as usize])
-                && let Some(detail) = wrongly_culled(&drawn, grid, settings.back_faces, sight)
+                && let Some(detail) = wrongly_culled(&drawn, grid, settings.drawn_faces(), sight)
             {
                 findings.add(FindingKind::Culled, [snapshot.leaves[slot as usize].key], || detail);
             }

@@ -139,7 +139,7 @@ pub fn frame<E>(
     if settings.balance == Balance::Table {
         table::check(snapshot, &mut findings);
     }
-    let grid = BaseGrid::new(settings.base_grid);
+    let grid = BaseGrid::of(settings);
     edges::check(topology, snapshot, &places, &grid, settings, sight, emit, &mut findings)?;
     Ok(findings)
 }

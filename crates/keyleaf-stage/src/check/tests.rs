@@ -83,7 +83,7 @@ fn emit(topology: &Topology, snapshot: &Snapshot, slots: &[u32]) -> Emitted {
     let mut emitted = Emitted::default();
     for &slot in slots {
         let place = snapshot.leaves[slot as usize].place();
-        for v in BaseGrid::new(k).vertices {
+        for v in BaseGrid::of(&settings()).vertices {
             let point = grid_point(place, snapshot.is_pair(slot as usize), [v & 0xffff, v >> 16], k);
             let number = site_number(topology, point);
             emitted.positions.push([
@@ -291,7 +291,7 @@ fn leaves_in_view_that_are_culled_are_found() {
     let sight = Sight::new(&view, &glam::DAffine3::IDENTITY, DVec3::ZERO);
     let at = |position: [f32; 3]| {
         let emit = |slots: &[u32]| {
-            let count = slots.len() * BaseGrid::new(2).vertices.len();
+            let count = slots.len() * BaseGrid::of(&settings()).vertices.len();
             Ok::<_, Infallible>(Emitted {
                 positions: vec![position; count],
                 normals: vec![[0.0, 1.0, 0.0]; count],
@@ -319,7 +319,7 @@ fn leaves_seen_from_behind_may_be_culled_where_that_is_wanted() {
         let sight = Sight::new(&view, &glam::DAffine3::IDENTITY, DVec3::ZERO);
         // All leaves lie in the plane z = 0, their fronts to +z.
         let emit = |slots: &[u32]| {
-            let corners = BaseGrid::new(2).vertices;
+            let corners = BaseGrid::of(&settings).vertices;
             let corner = |v: &u32| [(v & 0xffff) as f32 / 8.0, (v >> 16) as f32 / 8.0, 0.0];
             let leaf: Vec<[f32; 3]> = corners.iter().map(corner).collect();
             Ok::<_, Infallible>(Emitted {

@@ -99,7 +99,7 @@ impl Mesh {
         let inspector = Inspector::new(&gpu.device, &kind)?;
         let snapshot = quadtree.read_back(&gpu.device, &gpu.queue)?;
         let slots = slots(&snapshot, extent);
-        let grid = BaseGrid::new(quadtree.settings().base_grid);
+        let grid = BaseGrid::of(quadtree.settings());
         let first = self.positions.len();
         let points = slots.len() as u64 * grid.vertices.len() as u64 + first as u64;
         if u32::try_from(points).is_err() {

@@ -180,11 +180,11 @@ fn morph(ui: &mut Ui, settings: &mut Settings) {
     );
     let halves = matches!(
         settings.metric,
-        Metric::Edge { .. } | Metric::Distance { .. } | Metric::Boundary { .. } | Metric::LocalArea { .. }
+        Metric::Edge { .. } | Metric::Boundary { .. } | Metric::LocalArea { .. }
     );
     let mut is_on = settings.morph == Morph::Geomorph && halves;
     let switch = ui.add_enabled(halves, egui::Checkbox::new(&mut is_on, "new vertices slide"));
-    switch.on_disabled_hover_text("only with edge, distance, boundary and local area, which halve from level to level");
+    switch.on_disabled_hover_text("only with edge, boundary and local area, which halve from level to level");
     settings.morph = if is_on { Morph::Geomorph } else { Morph::None };
     ui.end_row();
 }

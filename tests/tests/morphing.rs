@@ -1,5 +1,6 @@
 //! Vertices that slide from the edges that they divide to the surface: where the f64 twin puts them, without a gap, without a jump.
 
+use crate::gpu::gpu;
 use crate::random::Random;
 use crate::surfaces;
 use crate::watertight::{Drawn, check, draw};
@@ -223,6 +224,34 @@ fn no_split_and_no_merge_is_seen() {
             assert!(with < 0.02 * without, "{name}: {with} against {without}");
         }
     }
+}
+
+#[test]
+fn seen_from_elsewhere_vertices_stay_where_the_refining_view_put_them() {
+    let surface = surfaces::terrain();
+    let mut world = World::new(&surface, morphing(Metric::Edge { pixels: 30.0 }, 1));
+    let mut random = Random(8);
+    let [view, other] = [0, 1].map(|_| random_view(&mut random, surface.as_ref()));
+    let snapshot = world.passes(&view, 12);
+    let positions = |world: &World| -> Vec<DVec3> {
+        let drawn = draw(world, &snapshot);
+        let origin = world.quadtree.origin();
+        drawn
+            .vertices
+            .iter()
+            .map(|v| Vec3::from(v.2).as_dvec3() + origin)
+            .collect()
+    };
+    let before = positions(&world);
+    world.quadtree.look_from(&gpu().queue, &other);
+    let after = positions(&world);
+    let size = size_of_box(surface.bounding_box());
+    let moved = before
+        .iter()
+        .zip(&after)
+        .map(|(a, b)| a.distance(*b))
+        .fold(0.0, f64::max);
+    assert!(moved <= 1e-6 * size, "{moved}");
 }
 
 #[test]

@@ -12,21 +12,24 @@ fn least_cosine(least: f32, axis: vec3f, a: vec3f, b: vec3f, c: vec3f) -> f32 {
     return select(min(least, dot(normal, axis)), least, all(normal == vec3f(0.0)));
 }
 
-fn grid_cosine(leaf: Place, is_pair: bool, axis: vec3f) -> f32 {
+// The least cosine of the triangles of a leaf, and of the pair that it may be half of: strip after strip, each vertex evaluated in one
+// place, for shaders that compile in a moment.
+fn grid_cosine(leaf: Place, axis: vec3f, may_be_pair: bool) -> f32 {
     let side = 1u << frame.base_grid;
     var least = 1.0;
-    for (var j = 0u; j < side; j++) {
-        var low = grid_point(leaf, is_pair, 0u, j);
-        var high = grid_point(leaf, is_pair, 0u, j + 1u);
-        for (var i = 0u; i + j < side; i++) {
-            let next_low = grid_point(leaf, is_pair, i + 1u, j);
-            least = least_cosine(least, axis, low, next_low, high);
-            if i + j + 1u < side {
-                let next_high = grid_point(leaf, is_pair, i + 1u, j + 1u);
-                least = least_cosine(least, axis, next_low, next_high, high);
-                high = next_high;
+    for (var way = 0u; way < select(1u, 2u, may_be_pair); way++) {
+        for (var j = 0u; j < side; j++) {
+            var before: vec3f;
+            var last: vec3f;
+            for (var k = 0u; k <= 2u * (side - j); k++) {
+                let point = grid_point(leaf, way == 1u, k >> 1u, j + (k & 1u));
+                if k >= 2u {
+                    let is_turned = (k & 1u) == 0u;
+                    least = least_cosine(least, axis, before, select(last, point, is_turned), select(point, last, is_turned));
+                }
+                before = last;
+                last = point;
             }
-            low = next_low;
         }
     }
     return least;
@@ -34,11 +37,11 @@ fn grid_cosine(leaf: Place, is_pair: bool, axis: vec3f) -> f32 {
 
 fn keep_cone(slot: u32, leaf: Place, digit: u32) {
     let side = 1u << frame.base_grid;
-    let corner = grid_point(leaf, false, 0u, 0u);
-    let axis = cross_direction(grid_point(leaf, false, side, 0u) - corner, grid_point(leaf, false, 0u, side) - corner);
-    var cosine = grid_cosine(leaf, false, axis);
-    if digit != ROOT_DIGIT && (digit & 1u) == 0u {
-        cosine = min(cosine, grid_cosine(leaf, true, axis));
+    var corners: array<vec3f, 3>;
+    for (var i = 0u; i < 3u; i++) {
+        corners[i] = grid_point(leaf, false, select(0u, side, i == 1u), select(0u, side, i == 2u));
     }
+    let axis = cross_direction(corners[1] - corners[0], corners[2] - corners[0]);
+    let cosine = grid_cosine(leaf, axis, digit != ROOT_DIGIT && (digit & 1u) == 0u);
     parents[frame.capacity + slot] = select(vec4f(0.0), vec4f(axis, cosine), cosine > 0.0);
 }

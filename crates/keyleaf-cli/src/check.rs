@@ -3,12 +3,13 @@
 use crate::arguments::{SceneArguments, parse_seconds, parse_size};
 use crate::output::{self, thousands};
 use crate::session::{self, DeviceReport};
-use crate::{Outcome, progress, table};
+use crate::{Outcome, progress};
 use anyhow::ensure;
 use clap::Args;
 use glam::UVec2;
 use keyleaf::headless::Headless;
 use keyleaf::{BackFaces, Balance, BaseGrid, KeyleafError, View};
+use keyleaf_report::table;
 use keyleaf_stage::check::{Checker, Finding, FindingKind, Findings, PictureCheck, Sight};
 use keyleaf_stage::{Canvas, Show, Stage, StageLook, view_of};
 use serde_json::json;

@@ -21,7 +21,6 @@ mod progress;
 mod record;
 mod render;
 mod session;
-mod table;
 mod timing;
 mod variant;
 mod view;

@@ -1,10 +1,11 @@
 //! `keyleaf plan`: what a scene needs on the GPU.
 
+use crate::Outcome;
 use crate::arguments::SceneArguments;
 use crate::output::{self, thousands};
 use crate::render::{Channel, OverlayArguments};
-use crate::{Outcome, table};
 use clap::Args;
+use keyleaf_report::table;
 use keyleaf_stage::plan::{Plan, PlannedModule, PlannedSurface, plan};
 
 /// Print what a scene needs: passes, pipelines, shader files, buffers and their bytes, effects

@@ -27,16 +27,16 @@ mod samples;
 mod series;
 mod studio;
 
+use crate::Outcome;
 use crate::arguments::{Overrides, ReadingArguments, load_scene, parse_size};
 use crate::output;
 use crate::session::{self, DeviceReport};
-use crate::{Outcome, table};
 use anyhow::Context;
 use clap::{Args, ValueEnum};
 use glam::UVec2;
 use keyleaf::Morph;
 use keyleaf_report::report::Report;
-use keyleaf_report::{html, svg};
+use keyleaf_report::{html, svg, table};
 use keyleaf_stage::{Loaded, LoadedObject, view_of};
 use serde::Serialize;
 use serde_json::json;

@@ -73,16 +73,16 @@ fn is_outside(planes: array<vec4f, 6>, centre: vec3f, radius: f32) -> bool {
     return min(sides, min(dot(planes[4], at), dot(planes[5], at))) < -radius;
 }
 
-// As metrics count it.
+// As metrics count it. `centre` is relative to the eye, in object space. Clamped at the near plane, so that a camera on the surface gets
+// a finite wish.
 fn distance_of(centre: vec3f, t: Terms) -> f32 {
     let there = t.world_from_object * centre;
     return select(max(sqrt(dot(there, there)), t.near), 1.0, t.without_distance);
 }
 
-// Metric over threshold; more than 1 asks for a split. `centre` is relative to the eye, in object space. Clamped at the near plane,
-// so that a camera on the surface gets a finite wish.
-fn wish(centre: vec3f, size: f32, guard: f32, t: Terms) -> f32 {
-    let inside = size * t.scale / distance_of(centre, t);
+// Metric over threshold; more than 1 asks for a split.
+fn wish(centre: vec3f, distance: f32, size: f32, guard: f32, t: Terms) -> f32 {
+    let inside = size * t.scale / distance;
     return quantise(select(inside, inside * t.guard_factor, is_outside(t.guard, centre, guard)));
 }
 
@@ -95,13 +95,15 @@ fn publish(slot: u32, t: Terms) -> u32 {
     if (digit & 1u) == 0u {
         parent = parents[slot] - vec4f(t.eye, 0.0);
     }
-    var wanted = wish(centre, measure.size, measure.guard, t);
+    let distance = distance_of(centre, t);
+    var wanted = wish(centre, distance, measure.size, measure.guard, t);
     if t.has_requests {
         wanted = max(wanted, bitcast<f32>(state[frame.capacity + slot]));
         state[frame.capacity + slot] = 0u;
     }
     let mature = (before & FRESH) == 0u;
-    let merges = mature && publishes_merge(digit) && wish(parent.xyz, measure.parent_size, parent.w, t) <= 1.0;
+    let merges = mature && publishes_merge(digit)
+        && wish(parent.xyz, distance_of(parent.xyz, t), measure.parent_size, parent.w, t) <= 1.0;
     state[slot] = state_from_wish(wanted) | (before & (PAIR | (7u << DIGIT_SHIFT)))
         | select(0u, MATURE, mature) | select(0u, MERGE, merges);
 
@@ -109,7 +111,7 @@ fn publish(slot: u32, t: Terms) -> u32 {
     let is_pair = (before & PAIR) != 0u;
     let hidden = is_pair && (digit & 1u) == 1u;
     var seen = select(vec4f(centre, measure.radius), vec4f(parent.xyz, measure.parent_radius), is_pair);
-    seen.w += t.slack * distance_of(centre, t);
+    seen.w += t.slack * distance;
     return select(0u, VISIBLE, !hidden && !is_outside(t.culling, seen.xyz, seen.w) && may_face_eye(slot, seen, t.side))
         | select(0u, SPLITTER, wanted > 1.0)
         | select(0u, MERGER, merges)

@@ -44,6 +44,33 @@ fn render_writes_the_picture_that_was_asked_for() {
     }
 }
 
+/// What an evaluator computes for vertices is tested elsewhere; here it is what the draw makes of it, idle lanes included.
+#[test]
+fn every_way_to_compute_basis_functions_draws_the_same_picture() {
+    let folder = Folder::new("basis-pictures");
+    let scenes = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    std::fs::copy(scenes.join("torus.obj"), folder.0.join("torus.obj")).unwrap();
+    let text = std::fs::read_to_string(scenes.join("torus.ron")).unwrap();
+    let drawn = |basis: &str| {
+        let of_basis = format!("\"torus.obj\", basis: Some({basis})");
+        folder.write("basis.ron", text.replace("\"torus.obj\"", &of_basis));
+        folder.succeed(&format!(
+            "render basis.ron -o {basis}.png --size 160x120 --pixels 24 --base-grid 1"
+        ));
+        picture(&folder, &format!("{basis}.png")).to_rgb8()
+    };
+    let expected = drawn("Triangular");
+    for basis in ["DeBoor", "Stair", "Extraction", "Power"] {
+        let made = drawn(basis);
+        let differences = made.pixels().zip(expected.pixels()).map(|(a, b)| {
+            let channels = a.0.iter().zip(b.0);
+            channels.map(|(a, b)| u32::from(a.abs_diff(b))).max().unwrap_or(0)
+        });
+        let different = differences.filter(|difference| *difference > 8).count();
+        assert!(different <= 20, "{basis}: {different} pixels of 19200 differ");
+    }
+}
+
 #[test]
 fn positions_are_in_the_world() {
     let folder = Folder::new("positions");

@@ -195,7 +195,7 @@ pub fn all(loaded: &Loaded, quick: bool) -> Vec<Series> {
         let culled = ways.map(|way| (way.name().to_owned(), with(&|settings| settings.back_faces = way)));
         all.push(of_settings("back faces, edge 8 px", culled.into()));
     }
-    // De Boor's recursion takes a hundred times the time of the others on a software device.
+    // De Boor's recursion takes the compiler of a software device some twenty seconds.
     let is_shown = |(method, _): &(BasisMethod, &str)| !(quick && *method == BasisMethod::DeBoor);
     let bases: Vec<_> = BASES
         .into_iter()

@@ -117,8 +117,8 @@ impl Metric {
         }
     }
 
-    /// Whether the size of a node is a length that bounds its edges, and at least twice that of its children, so that the vertices of one level have arrived where
-    /// [`Morph::Geomorph`] takes them before those of the next start.
+    /// Whether the size of a node is a length that bounds its edges, and at least twice that of its children: then the vertices of one
+    /// level have arrived where [`Morph::Geomorph`] takes them before those of the next start.
     pub fn halves(&self) -> bool {
         matches!(self, Self::Edge { .. } | Self::Boundary { .. } | Self::LocalArea { .. })
     }
@@ -309,8 +309,8 @@ pub enum Morph {
     #[default]
     None,
     /// First on the edge that they divide; then they slide to the surface while the wish goes on growing by half of the threshold. For
-    /// metrics that [halve](Metric::halves) from level to level. A vertex that slides takes up to five evaluations of the surface instead
-    /// of one; [`BackFaces::Leaves`] and [`BackFaces::Conservative`] leave nothing out, as [`BackFaces::Hidden`].
+    /// metrics that [halve](Metric::halves) from level to level. A vertex that slides takes three evaluations of the surface instead of
+    /// one, and the metric of the split leaves; [`BackFaces::Leaves`] and [`BackFaces::Conservative`] leave nothing out, as [`BackFaces::Hidden`].
     Geomorph,
 }
 

@@ -143,6 +143,11 @@ impl Metric {
     fn default_factor() -> f64 {
         10.0
     }
+
+    /// Whether its sizes are lengths that halve from level to level, as [`Morph::Geomorph`] needs.
+    pub fn halves(&self) -> bool {
+        matches!(self, Self::Edge { .. } | Self::Boundary { .. } | Self::LocalArea { .. })
+    }
 }
 
 impl Default for Metric {

@@ -195,11 +195,7 @@ fn check_metric(field: &str, metric: Metric) -> Checked {
 }
 
 fn check_morph(field: &str, metric: Metric, morph: Morph) -> Checked {
-    let halves = matches!(
-        metric,
-        Metric::Edge { .. } | Metric::Boundary { .. } | Metric::LocalArea { .. }
-    );
-    if morph == Morph::None || halves {
+    if morph == Morph::None || metric.halves() {
         return Ok(());
     }
     let problem = "vertices morph by metrics that halve from level to level; expected Edge, Boundary or LocalArea, or `morph: None`";

@@ -178,10 +178,7 @@ fn morph(ui: &mut Ui, settings: &mut Settings) {
         "morph",
         "vertices that a split adds slide from the edge that they divide to the surface, so that nothing jumps",
     );
-    let halves = matches!(
-        settings.metric,
-        Metric::Edge { .. } | Metric::Boundary { .. } | Metric::LocalArea { .. }
-    );
+    let halves = settings.metric.halves();
     let mut is_on = settings.morph == Morph::Geomorph && halves;
     let switch = ui.add_enabled(halves, egui::Checkbox::new(&mut is_on, "new vertices slide"));
     switch.on_disabled_hover_text("only with edge, boundary and local area, which halve from level to level");

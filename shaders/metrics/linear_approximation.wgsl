@@ -2,15 +2,15 @@
 // would be drawn.
 // requires: shared/leaf_sample.wgsl
 
-fn half_size(leaf: Place) -> f32 {
-    let o = leaf_sample(leaf, vec2u(0u, 0u));
-    let r = leaf_sample(leaf, vec2u(4u, 0u)) - o;
-    let u = leaf_sample(leaf, vec2u(0u, 4u)) - o;
+fn half_size(leaf: Place, is_pair: bool) -> f32 {
+    let o = leaf_sample(leaf, is_pair, vec2u(0u, 0u));
+    let r = leaf_sample(leaf, is_pair, vec2u(4u, 0u)) - o;
+    let u = leaf_sample(leaf, is_pair, vec2u(0u, 4u)) - o;
     var samples = array<vec2u, 6>(vec2u(2u, 2u), vec2u(0u, 2u), vec2u(2u, 0u), vec2u(1u, 1u), vec2u(2u, 1u), vec2u(1u, 2u));
     var size = 0.0;
     for (var i = 0u; i < 6u; i++) {
         let at = 0.25 * vec2f(samples[i]);
-        size = max(size, length(leaf_sample(leaf, samples[i]) - o - at.x * r - at.y * u));
+        size = max(size, length(leaf_sample(leaf, is_pair, samples[i]) - o - at.x * r - at.y * u));
     }
     return size;
 }

@@ -5,7 +5,7 @@
 // Departure: the papers slide the vertices of a grid within a leaf (Strugar 2009; Khoury 2.2.1, listing 2.2), which needs grids of 4^2
 // triangles or more; this takes single triangles too.
 //
-// The metric is that of the update.
+// The metric is that of the update. The composer adds what says which vertices pairs leave out.
 // requires: shared/place.wgsl, shared/surface.wgsl, shared/frame.wgsl, shared/neighbour.wgsl, shared/direction.wgsl
 
 // The wish at which a vertex has arrived, above that at which it starts. It must, before the next split is due at twice the wish.
@@ -81,6 +81,9 @@ fn vertex_part(face: u32, at: FaceCoord, position: vec3f) -> f32 {
         size = select(min(size, found), found, i == 0u);
         split = leaf_beside(leaf, square, on_side.x);
     }
+    if !is_on_hypotenuse(at) {
+        size = size_between_pairs(leaf, at, size);
+    }
 
     let there = (frame.world_from_object * vec4f(position - frame.refined_eye, 0.0)).xyz;
     let distance = select(max(length(there), frame.near), 1.0, frame.without_distance == 1u);
@@ -89,6 +92,12 @@ fn vertex_part(face: u32, at: FaceCoord, position: vec3f) -> f32 {
     let reach = frame.wish_when_near * pressure;
     let start = select(LATEST_START, reach / (reach - 1.0), reach > 3.0);
     return saturate((size * frame.wish_scale * pressure / distance - start) / MORPH_WIDTH);
+}
+
+// Of the triangle of the next coarser grid; else on a leg.
+fn is_on_hypotenuse(at: FaceCoord) -> bool {
+    let zeros = zeros_of(at);
+    return all(((vec2u(at.x, at.y) >> vec2u(zeros)) & vec2u(1u)) == vec2u(1u));
 }
 
 // From a vertex to one end of the edge that it divides, which runs along the lattice or along the hypotenuse of the triangle of the next

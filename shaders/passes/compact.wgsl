@@ -41,6 +41,7 @@ fn move_leaves(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) gro
     measures[home] = measures[source];
     parents[home] = parents[source];
     move_cone(source, home);
+    move_pair(source, home);
     state[home] = state[source];
     state[frame.capacity + home] = state[frame.capacity + source];
     if leaf.entry != NONE {

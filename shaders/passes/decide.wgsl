@@ -52,7 +52,7 @@ fn record(index: u32, slots: vec4u) {
 }
 
 fn decide_split(slot: u32, here: u32, p: Place) {
-    let blocked = (here & PAIR) != 0u;
+    let blocked = is_blocked(here);
     let h = neighbour_h(p);
     if h.face == NONE {
         if !blocked {
@@ -62,7 +62,7 @@ fn decide_split(slot: u32, here: u32, p: Place) {
         let other = find_promised(h);
         if other != NONE && slot < other { // once a diamond
             let there = state_of(other);
-            if wants(there) && (there & PAIR) == 0u {
+            if wants(there) && !is_blocked(there) {
                 let index = atomicAdd(&control.changes, 2u);
                 record(index, vec4u(slot, SPLIT, SPLIT, SPLIT));
                 record(index + 1u, vec4u(other, SPLIT, SPLIT, SPLIT));
@@ -79,7 +79,7 @@ fn decide_split(slot: u32, here: u32, p: Place) {
 // The slots of the four children of a node if all are leaves that may go, and no child of the nodes across its legs is split or is
 // about to be; x = NONE if not. `first`: the slot of child 0.
 //
-// A pair flag tells that the node across that leg is a leaf, so that nothing there needs a look. Where it is not, it is split, by
+// A leaf that is blocked tells that the node across that leg is a leaf, so that nothing there needs a look. Where it is not, it is split, by
 // (I2). Look-ups that are likely to object come first, and all are one loop: most leaves that speak for a satisfied parent stay
 // refused for long, because finer leaves lie across a leg.
 fn mergeable_children(q: Place, first: u32) -> vec4u {
@@ -91,7 +91,7 @@ fn mergeable_children(q: Place, first: u32) -> vec4u {
     let across_x = neighbour_x(q);
     let across_y = neighbour_y(q);
     var end = 7u;
-    for (var step = select(0u, 2u, (here & PAIR) != 0u); step < end; step++) {
+    for (var step = select(0u, 2u, is_blocked(here)); step < end; step++) {
         var node = across_y; // children 2 and 3
         var digit = step + 2u;
         if step >= 5u {
@@ -114,7 +114,7 @@ fn mergeable_children(q: Place, first: u32) -> vec4u {
                 return vec4u(NONE);
             }
             slots[digit] = slot;
-            end = select(7u, 5u, digit == 2u && (there & PAIR) != 0u || end == 5u);
+            end = select(7u, 5u, digit == 2u && is_blocked(there) || end == 5u);
         }
     }
     return slots;

@@ -3,7 +3,7 @@
 //
 // A leaf and, for child 0, its parent go through the same call in turn: the same node must get the same bits in both roles, or a
 // merge could be undone by the next pass.
-// The composer adds a file that keeps normal cones of leaves, or none.
+// The composer adds files that keep normal cones of leaves and what is known of pairs, or do not.
 // requires: shared/neighbour.wgsl, shared/leaf.wgsl, shared/control.wgsl, shared/frame.wgsl, shared/surface.wgsl
 
 @group(0) @binding(0) var<uniform> frame: Frame;
@@ -39,6 +39,7 @@ fn measure_leaf(slot: u32) {
     }
     measures[slot] = measure;
     keep_cone(slot, place, digit);
+    keep_pair(slot, place, digit);
 }
 
 // Four invocations a record of `apply`.

@@ -94,5 +94,6 @@ fn surface_bound(leaf: Place) -> SurfaceBound {
     let centre = surface_point(leaf.face, diamond_centre(leaf));
     let size = smooth_speed * level_scale(leaf.level) + h.typical;
     return SurfaceBound(centre, ball + h.variation + h.jump + surface.margin, size,
-        2.0 * (ball + h.steepest) + h.jump + guard_margin(leaf.level, surface.margin), size);
+        2.0 * (ball + h.steepest) + h.jump + guard_margin(leaf.level, surface.margin), size,
+        HALF_LEVEL * size);
 }

@@ -19,6 +19,7 @@ struct Frame {
     base_grid: u32,             // k: a leaf is drawn as 4^k triangles
     view_serial: u32,           // another number for another view
     metric_parameter: f32,      // for metrics that have one
+    pairs: u32,                 // where, in the array of parents, what is known of pairs begins
     refined_eye: vec3f,         // as `eye`: from where the leaves were refined
     wish_when_near: f32,        // wish of a node that is as large as it is far away, where the metric is a length
     morph_slack: f32,           // how far vertices may be from the surface: distance, over wish_scale; 0 where they do not morph

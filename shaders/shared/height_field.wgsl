@@ -64,5 +64,5 @@ fn surface_bound(leaf: Place) -> SurfaceBound {
     let vertical = min(max(bounds.y - height, height - bounds.x), bounds.z * reach);
     let size = map_reach(surface.map) * level_scale(leaf.level) * steepness;
     return SurfaceBound(centre, sqrt(reach * reach + vertical * vertical) * 1.000001 + margin, size,
-        2.0 * reach * steepness + guard_margin(leaf.level, margin), size);
+        2.0 * reach * steepness + guard_margin(leaf.level, margin), size, HALF_LEVEL * size);
 }

@@ -26,13 +26,19 @@ struct Measure {
 }
 
 // Word `slot` of the state: the published wish and the flags below.
-//   bits 31..7: bits 30..6 of the f32 wish (metric over threshold, or a finer neighbour's), truncated to 17 bits of mantissa
-const PAIR: u32 = 1u;     // the neighbour C(n) is a leaf: this is half of a pair, and blocked
+//   bits 31..8: bits 30..7 of the f32 wish (metric over threshold, or a finer neighbour's), truncated to 16 bits of mantissa
+const PAIR: u32 = 1u;     // drawn as half of a pair; it must be unless it is free
 const FRESH: u32 = 2u;    // not yet published
 const MATURE: u32 = 4u;   // was there when it published
 const MERGE: u32 = 8u;    // the parent's metric is satisfied (published by child 0)
 const DIGIT_SHIFT: u32 = 4u; // the last digit, 0..4, in three bits
-const STATE_FLAGS: u32 = 0x7fu;
+const FREE: u32 = 128u;   // the four nodes about the right angle are leaves: both pairs may be drawn, or none
+const STATE_FLAGS: u32 = 0xffu;
+
+// Whether C(n) is a leaf: then this one may not split, and must be half of a pair.
+fn is_blocked(state: u32) -> bool {
+    return (state & (PAIR | FREE)) == PAIR;
+}
 
 fn state_digit(state: u32) -> u32 {
     return (state >> DIGIT_SHIFT) & 7u;
@@ -46,9 +52,9 @@ fn state_from_wish(wish: f32) -> u32 {
     return (bitcast<u32>(wish) << 1u) & ~STATE_FLAGS;
 }
 
-// The wish as it can be published: 17 bits of mantissa.
+// The wish as it can be published: 16 bits of mantissa.
 fn quantise(wish: f32) -> f32 {
-    return bitcast<f32>(bitcast<u32>(wish) & 0x7fffffc0u);
+    return bitcast<f32>(bitcast<u32>(wish) & 0x7fffff80u);
 }
 
 const BUCKETS: u32 = 32u;

@@ -1,12 +1,11 @@
-// Points of a leaf for metrics that sample the surface. Such a metric defines `fn half_size(leaf: Place) -> f32` of one triangle; both
-// halves of a diamond get the larger of theirs, since a diamond splits only if both want to.
-// requires: shared/place.wgsl, shared/neighbour.wgsl, shared/surface.wgsl
+// Points of a leaf for metrics that sample the surface. Such a metric defines `fn half_size(leaf: Place, is_pair: bool) -> f32` of one
+// triangle, that of a leaf or of the pair of which it is the even half. Both halves of a diamond get the larger of theirs, since a diamond
+// splits only if both want to.
+// requires: shared/grid.wgsl, shared/neighbour.wgsl, shared/surface.wgsl
 
-// The surface at (a, b) quarters of the legs of a leaf: O (0, 0), R (4, 0), U (0, 4).
-fn leaf_sample(leaf: Place, quarters: vec2u) -> vec3f {
-    let quarter = unit(leaf.level) >> 2u;
-    let at = offset(leaf, quarter * quarters.x, quarter * quarters.y);
-    return surface_point(leaf.face, FaceCoord(leaf.root, at.x, at.y));
+// The surface at (a, b) quarters of the legs: O (0, 0), R (4, 0), U (0, 4).
+fn leaf_sample(leaf: Place, is_pair: bool, quarters: vec2u) -> vec3f {
+    return surface_point(leaf.face, grid_coord(leaf, is_pair, quarters.x, quarters.y, 2u));
 }
 
 // Corner 0, 1, 2 is O, R, U.
@@ -21,7 +20,7 @@ fn metric_size(leaf: Place, bound: SurfaceBound) -> f32 {
     var size = 0.0;
     var node = leaf;
     for (var half = 0u; half < 2u && node.face != NONE; half++) {
-        size = max(size, half_size(node));
+        size = max(size, half_size(node, false));
         node = neighbour_h(leaf);
     }
     return size;

@@ -150,6 +150,7 @@ fn surface_bound(leaf: Place) -> SurfaceBound {
     let size = bitcast<f32>(surface_b[record + 2u]);
     let ball = bitcast<f32>(surface_b[record + 3u]) * ball_scale(leaf.level);
     let centre = diamond_centre(leaf);
+    let deviation = local_deviation(leaf, centre);
     return SurfaceBound(surface_point(leaf.face, centre), ball + surface.margin, size * level_scale(leaf.level),
-        2.0 * ball + guard_margin(leaf.level, surface.margin), local_deviation(leaf, centre));
+        2.0 * ball + guard_margin(leaf.level, surface.margin), deviation.x, deviation.y);
 }

@@ -7,6 +7,9 @@ struct SurfaceFrame {
     normal: vec3f,
 }
 
+// Of half a triangle, by that of the whole: how long its edges are.
+const HALF_LEVEL: f32 = 0.70710678;
+
 // Bounds of the diamond of a leaf (the leaf and its H-neighbour), in object units.
 struct SurfaceBound {
     centre: vec3f, // of the hypotenuse, on the surface
@@ -14,4 +17,5 @@ struct SurfaceBound {
     size: f32,     // half the length of the drawn hypotenuse, from above; never grows from parent to child: for metrics
     guard: f32,    // ball that contains the guard balls of the children: for the guard band
     deviation: f32, // distance of the surface from flat triangles of this level, from above; never grows from parent to child
+    pair_deviation: f32, // the same for the halves of such a triangle on both sides of its median
 }

@@ -95,5 +95,6 @@ fn surface_bound(leaf: Place) -> SurfaceBound {
     let deviation = bitcast<f32>(surface_b[record + 3u]);
     let scale = level_scale(leaf.level);
     return SurfaceBound(surface_point(leaf.face, diamond_centre(leaf)), ball + surface.margin, size * scale,
-        2.0 * ball + guard_margin(leaf.level, surface.margin), deviation * scale * scale);
+        2.0 * ball + guard_margin(leaf.level, surface.margin), deviation * scale * scale,
+        0.25 * deviation * scale * scale);
 }

@@ -51,5 +51,5 @@ fn surface_bound(leaf: Place) -> SurfaceBound {
     let ball = rho * ball_scale(leaf.level);
     let scale = level_scale(leaf.level);
     return SurfaceBound(surface_point(leaf.face, diamond_centre(leaf)), ball + surface.margin, rho * scale,
-        2.0 * ball + guard_margin(leaf.level, surface.margin), twist * scale * scale);
+        2.0 * ball + guard_margin(leaf.level, surface.margin), twist * scale * scale, twist * scale * scale);
 }

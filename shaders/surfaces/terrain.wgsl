@@ -95,5 +95,5 @@ fn surface_bound(leaf: Place) -> SurfaceBound {
     let steepest = sqrt(1.0 + surface.steepest_slope * surface.steepest_slope);
     let size = map_reach(surface.map) * level_scale(leaf.level) * typical;
     return SurfaceBound(centre, sqrt(reach * reach + vertical * vertical) * 1.000001 + margin, size,
-        2.0 * reach * steepest + guard_margin(leaf.level, margin), size);
+        2.0 * reach * steepest + guard_margin(leaf.level, margin), size, HALF_LEVEL * size);
 }

@@ -6,7 +6,7 @@ use crate::world::{World, random_view, settings, size_of_box};
 use glam::{DAffine3, DQuat, DVec3};
 use keyleaf::key::RootPoint;
 use keyleaf::surface::Surface;
-use keyleaf::{Metric, Projection, Settings, View};
+use keyleaf::{Metric, Pairs, Projection, Settings, View};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -50,6 +50,7 @@ fn check(name: &str, surface: &Arc<dyn Surface>, transform: DAffine3, views: usi
         transform,
         Settings {
             capacity: 4000,
+            pairs: Pairs::Wished, // those that must be come with them
             ..settings(Metric::Edge { pixels: 30.0 })
         },
     );

@@ -5,7 +5,7 @@ use crate::surfaces;
 use crate::world::{EDGE, World, settings, size_of_box};
 use glam::{DQuat, DVec3, UVec2};
 use keyleaf::surface::Surface;
-use keyleaf::{Settings, View};
+use keyleaf::{Pairs, Settings, View};
 use std::sync::Arc;
 
 /// A fly-in from afar to a point on the surface, a fast turn there, and teleports. (what, view)
@@ -57,9 +57,16 @@ fn fly(name: &str, surface: &Arc<dyn Surface>, settings: Settings) -> (u32, u32)
 
 #[test]
 fn nothing_is_wrong_in_any_frame_of_a_flight_on_any_surface() {
-    for (name, surface) in surfaces::all() {
-        let (most, _) = fly(name, &surface, settings(EDGE));
-        println!("{name}: at most {most} leaves");
+    for ((name, surface), pairs) in surfaces::all().into_iter().zip(Pairs::ALL.into_iter().cycle()) {
+        let (most, _) = fly(
+            name,
+            &surface,
+            Settings {
+                pairs,
+                ..settings(EDGE)
+            },
+        );
+        println!("{name}: at most {most} leaves, pairs {}", pairs.name());
         assert!(most > 100, "{name}: {most} leaves");
     }
 }
@@ -74,6 +81,7 @@ fn a_full_buffer_stays_complete_and_free_of_cracks_and_says_so() {
                 &surface,
                 Settings {
                     capacity,
+                    pairs: Pairs::Wished,
                     ..settings(EDGE)
                 },
             );

@@ -133,6 +133,7 @@ fn frame() {
         base_grid: 10,
         view_serial: 11,
         metric_parameter: 12.0,
+        pairs: 17,
         refined_eye: Vec3::splat(13.0),
         wish_when_near: 14.0,
         morph_slack: 15.0,
@@ -157,6 +158,7 @@ fn frame() {
         ("base_grid", 10),
         ("view_serial", 11),
         ("metric_parameter", f(12.0)),
+        ("pairs", 17),
         ("refined_eye", f(13.0)),
         ("wish_when_near", f(14.0)),
         ("morph_slack", f(15.0)),
@@ -245,13 +247,19 @@ fn arguments_and_constants() {
     const { assert!(arguments::SIZE >= arguments::DRAW + 20) };
     assert_eq!(constant(&copy, "GROUP_SIZE"), layout::GROUP_SIZE);
     assert_eq!(constant(&copy, "UPDATE_LEAVES"), layout::UPDATE_LEAVES);
-    let update = parse(&["passes/update.wgsl", "shared/balance.wgsl", "shared/faces_drawn.wgsl"]);
+    let update = parse(&[
+        "passes/update.wgsl",
+        "shared/balance.wgsl",
+        "shared/faces_drawn.wgsl",
+        "shared/pairs_forced.wgsl",
+    ]);
     assert_eq!(
         constant(&update, "GROUP_SIZE") * constant(&update, "LEAVES_PER_INVOCATION"),
         layout::UPDATE_LEAVES
     );
     for (name, value) in [
         ("PAIR", layout::state::PAIR),
+        ("FREE", layout::state::FREE),
         ("FRESH", layout::state::FRESH),
         ("MATURE", layout::state::MATURE),
         ("MERGE", layout::state::MERGE),
@@ -358,7 +366,7 @@ fn no_draw_binds_more_than_eight_storage_buffers() {
     for surface in files_in("surfaces/") {
         let still = channels().into_iter().map(|channel| (channel, Morph::None));
         for (channel, morph) in still.chain(morphing_channels().map(|channel| (channel, Morph::Geomorph))) {
-            let kind = drawn_kind(surface, "metrics/edge.wgsl", morph);
+            let kind = drawn_kind(surface, "metrics/edge.wgsl", morph, None);
             let files = [channel.files(), kind.drawing_files()].concat();
             let found = declared(&parse(&files));
             let storage = found.values().filter(|kind| is_storage(kind)).count();

@@ -30,6 +30,7 @@ mod layouts;
 mod leaf_table;
 mod metrics;
 mod morphing;
+mod pairs;
 mod posing;
 mod precision;
 mod scaling;

@@ -9,7 +9,7 @@ use glam::{DAffine3, DQuat, DVec2, DVec3, UVec2, Vec3};
 use keyleaf::key::{RootPoint, Site};
 use keyleaf::read_back::Snapshot;
 use keyleaf::surface::{Geomorph, Insertion, Surface};
-use keyleaf::{KeyleafError, Metric, Morph, Settings, View};
+use keyleaf::{KeyleafError, Metric, Morph, Pairs, Settings, View};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
@@ -82,12 +82,17 @@ fn vertices_are_where_the_f64_twin_puts_them_and_leave_no_gap() {
     let mut sliding = 0;
     for (seed, (name, surface)) in (0..).zip(all()) {
         for k in 0..3 {
-            let mut world = World::placed(&surface, placed, morphing(Metric::Edge { pixels: 30.0 }, k));
+            let pairs = Pairs::ALL[(seed + u64::from(k)) as usize % 2];
+            let settings = Settings {
+                pairs,
+                ..morphing(Metric::Edge { pixels: 30.0 }, k)
+            };
+            let mut world = World::placed(&surface, placed, settings);
             let mut random = Random(100 + 10 * seed + u64::from(k));
             for passes in [12, 2] {
                 let view = random_view(&mut random, surface.as_ref());
                 let snapshot = world.passes(&view, passes);
-                let case = format!("{name}, base grid {k}, {passes} passes");
+                let case = format!("{name}, base grid {k}, pairs {}, {passes} passes", pairs.name());
                 let drawn = draw(&world, &snapshot);
                 check(surface.topology(), &drawn, &case);
                 sliding += compare(&world, &twin(&world, &view, &snapshot), &drawn, &case);
@@ -171,9 +176,10 @@ fn jump(after: &Drawn, before: &Drawn, pixels: impl Fn(DVec3, f64) -> f64) -> f6
 }
 
 /// The largest jump and how many changes there were, while a camera flies by in small steps and the leaves settle at each.
-fn flight(surface: &Arc<dyn Surface>, pixels: f32, k: u32, morph: Morph) -> (f64, usize) {
+fn flight(surface: &Arc<dyn Surface>, pixels: f32, k: u32, morph: Morph, pairs: Pairs) -> (f64, usize) {
     let settings = Settings {
         morph,
+        pairs,
         capacity: 20_000,
         ..morphing(
             Metric::Edge {
@@ -216,10 +222,13 @@ fn no_split_and_no_merge_is_seen() {
         ("terrain", surfaces::terrain(), 60.0),
         ("cube with noise", surfaces::by_noise(&crate::meshes::cube()), 30.0),
     ] {
-        for k in 0..3 {
-            let (without, _) = flight(&surface, pixels, k, Morph::None);
-            let (with, changes) = flight(&surface, pixels, k, Morph::Geomorph);
-            println!("{name}, base grid {k}: jumps of {without:.3} pixels without, {with:.4} with, {changes} changes");
+        let forced = (0..3).map(|k| (k, Pairs::Forced));
+        let wished = (0..2).map(|k| (k, Pairs::Wished));
+        for (k, pairs) in forced.chain(wished) {
+            let (without, _) = flight(&surface, pixels, k, Morph::None, pairs);
+            let (with, changes) = flight(&surface, pixels, k, Morph::Geomorph, pairs);
+            let name = format!("{name}, base grid {k}, pairs {}", pairs.name());
+            println!("{name}: jumps of {without:.3} pixels without, {with:.4} with, {changes} changes");
             assert!(without > 0.1 && changes > 20, "{name}: {without}, {changes}");
             assert!(with < 0.02 * without, "{name}: {with} against {without}");
         }

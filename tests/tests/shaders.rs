@@ -30,8 +30,18 @@ pub fn kinds() -> Vec<Kind> {
                 balance,
                 back_faces: BackFaces::Drawn,
                 morph: Morph::None,
+                pair_metric: None,
                 pose: None,
             }));
+            kinds.push(Kind {
+                surface,
+                metric,
+                balance: Balance::Table,
+                back_faces: BackFaces::Leaves,
+                morph: Morph::None,
+                pair_metric: Some(pair_metric(metric)),
+                pose: None,
+            });
         }
         kinds.extend(
             BackFaces::ALL
@@ -41,6 +51,7 @@ pub fn kinds() -> Vec<Kind> {
                     balance: Balance::Table,
                     back_faces,
                     morph: Morph::None,
+                    pair_metric: None,
                     pose: None,
                 })
                 .into_iter()
@@ -57,6 +68,7 @@ pub fn kinds() -> Vec<Kind> {
             balance: Balance::Table,
             back_faces: BackFaces::Drawn,
             morph: Morph::None,
+            pair_metric: None,
             pose: Some(pose),
         });
     }
@@ -97,14 +109,30 @@ pub fn morphing_channels() -> [Channel; 4] {
     ]
 }
 
+/// The file of the size of a pair for that of the size of a leaf.
+fn pair_metric(metric: &str) -> &'static str {
+    let samples = || dependencies(&[metric]).is_ok_and(|files| files.contains(&"shared/leaf_sample.wgsl"));
+    match metric {
+        "metrics/deviation.wgsl" => "pairs/deviation.wgsl",
+        _ if samples() => "pairs/sampled.wgsl",
+        _ => "pairs/of_parent.wgsl",
+    }
+}
+
 /// A kind of quadtree as far as drawing goes.
-pub fn drawn_kind(surface: &'static str, metric: &'static str, morph: Morph) -> Kind {
+pub fn drawn_kind(
+    surface: &'static str,
+    metric: &'static str,
+    morph: Morph,
+    pair_metric: Option<&'static str>,
+) -> Kind {
     Kind {
         surface,
         metric,
         morph,
         balance: Balance::Table,
         back_faces: BackFaces::Drawn,
+        pair_metric,
         pose: None,
     }
 }
@@ -115,8 +143,9 @@ fn combinations() -> BTreeSet<Vec<&'static str>> {
     for surface in files_in("surfaces/") {
         let [emit, evaluate] = Inspector::FILES;
         let drawn = |files: &[&'static str], morph, metric| {
-            [files, &drawn_kind(surface, metric, morph).drawing_files()].concat()
+            [files, &drawn_kind(surface, metric, morph, None).drawing_files()].concat()
         };
+        let paired = |metric| drawn_kind(surface, metric, Morph::Geomorph, Some(pair_metric(metric)));
         let edge = "metrics/edge.wgsl";
         for channel in channels() {
             all.insert(drawn(&channel.files(), Morph::None, edge));
@@ -129,7 +158,9 @@ fn combinations() -> BTreeSet<Vec<&'static str>> {
             let metric = files_in("metrics/")
                 .into_iter()
                 .find(|file| *file == format!("metrics/{metric}.wgsl"));
-            all.insert(drawn(&[emit], Morph::Geomorph, metric.expect("a metric")));
+            let metric = metric.expect("a metric");
+            all.insert(drawn(&[emit], Morph::Geomorph, metric));
+            all.insert([vec![emit], paired(metric).drawing_files()].concat());
         }
         all.insert(vec![evaluate, surface]);
         all.insert(MapPipeline::FILES.into_iter().chain([surface]).collect());

@@ -1,6 +1,7 @@
 //! What can be wrong with what the GPU holds after a pass. All in integers: nothing is evaluated here.
 
 use keyleaf::key::forest::{Crack, Violation, cracks, violations};
+use keyleaf::key::neighbour::about_right_angle;
 use keyleaf::key::{Forest, Place, Published, Topology};
 use keyleaf::layout::{Leaf, place_hash, state};
 use keyleaf::read_back::Snapshot;
@@ -15,8 +16,10 @@ pub enum Finding {
     Crack(Crack),
     /// Key, decoded place and digit of a slot differ.
     Key(Leaf),
-    /// The pair flag does not say whether C(n) is a leaf.
+    /// The pair flag does not say whether C(n) is a leaf, or a free leaf does not agree with the others about its right angle.
     Pair { place: Place, flag: bool },
+    /// The flag does not say whether the four nodes about the right angle are leaves.
+    Free { place: Place, flag: bool },
     /// A leaf has not published.
     Unpublished(Place),
     /// A leaf is not where the table says, or not on the way of its hash.
@@ -53,13 +56,26 @@ pub fn findings(topology: &Topology, snapshot: &Snapshot) -> Vec<Finding> {
     let drawn = (0..leaves.len()).filter_map(|slot| leaves[slot].drawn(snapshot.is_pair(slot)));
     found.extend(cracks(topology, drawn).into_iter().map(Finding::Crack));
     let forest = Forest::with_leaves(topology, 31, leaves.iter().copied());
+    let slots = 0..leaves.len();
+    let pairs: BTreeMap<Place, bool> = slots.map(|slot| (leaves[slot], snapshot.is_pair(slot))).collect();
     for ((leaf, place), word) in snapshot.leaves.iter().zip(&leaves).zip(&snapshot.states) {
         if leaf.key != place.key() || state::digit(*word) != place.digit().unwrap_or(state::ROOT_DIGIT) {
             found.push(Finding::Key(*leaf));
         }
-        let flag = word & state::PAIR != 0;
-        if flag != forest.is_blocked(*place) {
-            found.push(Finding::Pair { place: *place, flag });
+        let (pair, free) = (word & state::PAIR != 0, word & state::FREE != 0);
+        if free != forest.is_free(*place) {
+            found.push(Finding::Free {
+                place: *place,
+                flag: free,
+            });
+        }
+        let about = about_right_angle(topology, *place).filter(|_| free);
+        let as_others = |nodes: [Place; 4]| nodes.iter().all(|node| pairs.get(node) == Some(&pair));
+        if !about.map_or(pair == forest.is_blocked(*place), as_others) {
+            found.push(Finding::Pair {
+                place: *place,
+                flag: pair,
+            });
         }
         if word & state::FRESH != 0 {
             found.push(Finding::Unpublished(*place));

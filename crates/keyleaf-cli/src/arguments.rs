@@ -3,7 +3,7 @@
 use anyhow::{Context, bail, ensure};
 use clap::{Args, ValueEnum};
 use glam::{DVec3, UVec2};
-use keyleaf::{BackFaces, Metric, Morph, Settings, Threshold, View};
+use keyleaf::{BackFaces, Metric, Morph, Pairs, Settings, Threshold, View};
 use keyleaf_scene::scene::ShapeName;
 use keyleaf_stage::{LoadOptions, Loaded, load, view_of};
 use std::path::{Path, PathBuf};
@@ -65,6 +65,10 @@ pub struct Overrides {
     /// to the surface (geomorph; with the metrics edge, boundary and local-area)
     #[arg(long, value_name = "HOW", value_parser = parse_morph)]
     pub morph: Option<Morph>,
+    /// Leaves that are drawn two as one triangle: beside larger ones, where they must be (forced), or also where the metric is satisfied with
+    /// triangles twice as large (wished)
+    #[arg(long, value_name = "WHICH", value_parser = parse_pairs)]
+    pub pairs: Option<Pairs>,
     /// Leaves that the buffers of a surface hold
     #[arg(long, value_name = "N")]
     pub capacity: Option<u32>,
@@ -150,6 +154,7 @@ impl Overrides {
         settings.set_metric(self.pixels.map(of_edges).or(self.metric).unwrap_or(settings.metric));
         settings.back_faces = self.back_faces.unwrap_or(settings.back_faces);
         settings.morph = self.morph.unwrap_or(settings.morph);
+        settings.pairs = self.pairs.unwrap_or(settings.pairs);
         settings.capacity = self.capacity.unwrap_or(settings.capacity);
         settings.target_leaves = settings.target_leaves.min(settings.capacity);
         if let Some(k) = self.base_grid {
@@ -257,6 +262,11 @@ fn parse_back_faces(text: &str) -> anyhow::Result<BackFaces> {
 fn parse_morph(text: &str) -> anyhow::Result<Morph> {
     let found = Morph::ALL.into_iter().find(|how| how.name() == text);
     found.context("expected none or geomorph")
+}
+
+fn parse_pairs(text: &str) -> anyhow::Result<Pairs> {
+    let found = Pairs::ALL.into_iter().find(|which| which.name() == text);
+    found.context("expected forced or wished")
 }
 
 /// A positive number of seconds.

@@ -75,8 +75,13 @@ fn surface(surface: &PlannedSurface) -> String {
         "none" => String::new(),
         name => format!(", {name}"),
     };
+    let pairs = if surface.pairs == "forced" {
+        ""
+    } else {
+        ", pairs as wished"
+    };
     format!(
-        "surface {}: {}, metric {}{history}{morph}{back_faces}\n{} faces, {} roots, {} leaves at most ({:.1} bytes a leaf), level {} at most, {} \
+        "surface {}: {}, metric {}{history}{pairs}{morph}{back_faces}\n{} faces, {} roots, {} leaves at most ({:.1} bytes a leaf), level {} at most, {} \
          triangles a leaf\n\n{}\n\n{}",
         surface.name,
         surface.surface,

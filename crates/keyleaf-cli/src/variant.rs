@@ -1,7 +1,7 @@
 //! Settings that are swept: `edge=1,2,4`, each value a variant.
 
 use anyhow::{Context, bail, ensure};
-use keyleaf::{BackFaces, Balance, Metric, Morph, Settings};
+use keyleaf::{BackFaces, Balance, Metric, Morph, Pairs, Settings};
 use std::collections::BTreeMap;
 
 /// A setting and the values that it takes in turn.
@@ -12,7 +12,7 @@ pub struct Sweep {
 }
 
 /// A name and what its values are.
-const NAMES: [(&str, &str); 10] = [
+const NAMES: [(&str, &str); 11] = [
     ("edge", "pixels"),
     ("deviation", "pixels"),
     ("distance", "a factor"),
@@ -25,6 +25,7 @@ const NAMES: [(&str, &str); 10] = [
     ),
     ("back-faces", "drawn, hidden, leaves, light, strong or conservative"),
     ("morph", "none or geomorph"),
+    ("pairs", "forced or wished"),
     ("neighbours", "on or off"),
 ];
 
@@ -109,6 +110,10 @@ fn apply(name: &str, value: &str, settings: &mut Settings) -> anyhow::Result<()>
             let found = Morph::ALL.into_iter().find(|how| how.name() == value);
             settings.morph = found.with_context(wrong)?;
         }
+        "pairs" => {
+            let found = Pairs::ALL.into_iter().find(|which| which.name() == value);
+            settings.pairs = found.with_context(wrong)?;
+        }
         "neighbours" => {
             settings.balance = match value {
                 "on" => Balance::Table,
@@ -141,6 +146,7 @@ pub fn described(settings: &Settings) -> BTreeMap<String, String> {
         ("cull", settings.cull.to_string()),
         ("back_faces", settings.back_faces.name().to_owned()),
         ("morph", settings.morph.name().to_owned()),
+        ("pairs", settings.pairs.name().to_owned()),
         ("neighbours", (settings.balance == Balance::Table).to_string()),
     ]
     .map(|(name, value)| (name.to_owned(), value))

@@ -4,7 +4,7 @@ use crate::stage::{colour, look_of, world_box};
 use glam::{DAffine3, DVec3, UVec2, Vec3};
 use keyleaf::draw::{ColourTexture, Look};
 use keyleaf::shading::{Material, Shading};
-use keyleaf::{BackFaces, Metric, Morph, Projection, Settings, Threshold, View};
+use keyleaf::{BackFaces, Metric, Morph, Pairs, Projection, Settings, Threshold, View};
 use keyleaf_scene::scene::{CameraPath, Colouring, Culling, Effect, NamedCamera};
 use keyleaf_scene::{ControlCage, OpenError, OpenOptions, OpenedScene, OpenedSurface, PoseError, Scene};
 use keyleaf_surface::Surface;
@@ -231,6 +231,10 @@ pub fn settings(scene: &keyleaf_scene::scene::Settings) -> Settings {
         morph: match scene.morph {
             scene::Morph::None => Morph::None,
             scene::Morph::Geomorph => Morph::Geomorph,
+        },
+        pairs: match scene.pairs {
+            scene::Pairs::Forced => Pairs::Forced,
+            scene::Pairs::Wished => Pairs::Wished,
         },
         ..Settings::default()
     }

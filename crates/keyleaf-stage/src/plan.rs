@@ -44,6 +44,8 @@ pub struct PlannedSurface {
     pub approximate: bool,
     /// Where the vertices that a split adds are drawn.
     pub morph: String,
+    /// Which leaves are drawn as pairs.
+    pub pairs: String,
     /// Faces of the control mesh.
     pub faces: u32,
     /// Roots: the fewest leaves.
@@ -125,7 +127,7 @@ fn surface(
     planned.push(module("draw", &["draw"], &files)?);
 
     let capacity = object.settings.capacity;
-    let mut buffers: Vec<PlannedBuffer> = layout::buffer_bytes(capacity, kind.back_faces)
+    let mut buffers: Vec<PlannedBuffer> = layout::buffer_bytes(capacity, kind.back_faces, object.settings.pairs)
         .into_iter()
         .map(|(name, bytes)| PlannedBuffer {
             name: name.to_owned(),
@@ -187,6 +189,7 @@ fn surface(
         back_faces: object.settings.drawn_faces().name().to_owned(),
         approximate: object.settings.back_faces.is_approximate(),
         morph: object.settings.morph.name().to_owned(),
+        pairs: object.settings.pairs.name().to_owned(),
         faces: topology.face_count(),
         roots: topology.half_edge_count(),
         capacity,

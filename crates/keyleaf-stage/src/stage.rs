@@ -199,6 +199,7 @@ impl Stage {
                 && now.metric.shader() == wanted.metric.shader()
                 && now.balance == wanted.balance
                 && now.drawn_faces() == wanted.drawn_faces()
+                && now.pairs == wanted.pairs
                 && now.moving == wanted.moving
         });
         if !keeps_buffers {

@@ -6,6 +6,7 @@
 use crate::direction::frame_normal;
 use crate::mesh::{POSITION_ERROR, Polygons, unit_or_up, vector_entry};
 use crate::stencil::{Jet, Operand, over_edges, root_speeds};
+use crate::surface::HALF_LEVEL;
 use crate::{MeshError, PolygonMesh, SurfaceBound, SurfaceFrame, diamond};
 use glam::DVec3;
 use keyleaf_key::{Place, RootPoint};
@@ -143,6 +144,7 @@ impl SmoothMesh {
             radius: ball + h.variation + h.jump,
             size,
             deviation: size,
+            pair_deviation: HALF_LEVEL * size,
             guard: 2.0 * (ball + h.steepest) + h.jump,
         }
     }

@@ -19,6 +19,8 @@ pub struct Geomorph {
     pub size: MetricSize,
     /// k: leaves are drawn as 4^k triangles.
     pub base_grid: u32,
+    /// Whether leaves are drawn as pairs where the metric is satisfied with those.
+    pub pairs_as_wished: bool,
     /// Metric over threshold of size 1 at a world distance of 1.
     pub wish_scale: f64,
     /// Metric over threshold of a node that is as large as it is far away; 1 where the metric is no length.
@@ -38,6 +40,8 @@ pub struct Insertion {
     pub split: Vec<Place>,
     /// The ends of the edge that it divides.
     pub ends: [RootPoint; 2],
+    /// Of a vertex that the pairs of some leaves leave out: one of those.
+    pub pair: Option<Place>,
 }
 
 impl Insertion {
@@ -71,7 +75,10 @@ impl Insertion {
             _ => None,
         };
         let split = std::iter::once(leaf).chain(beside).collect();
-        Some(Self { split, ends })
+        let is_on_leg = matches!(local(coarse, at), (0, _) | (_, 0));
+        let (a, b) = local(leaf, at);
+        let pair = is_on_leg.then(|| leaf.child(if a > b { 2 } else { 0 }));
+        Some(Self { split, ends, pair })
     }
 }
 
@@ -107,7 +114,9 @@ impl Geomorph {
     /// How far a vertex has come: 0 on the edge that it divides, 1 on the surface.
     pub fn part(&self, surface: &dyn Surface, insertion: &Insertion, position: DVec3) -> f64 {
         let sizes = insertion.split.iter().map(|node| self.size.of(surface, node));
-        let size = sizes.fold(f64::INFINITY, f64::min);
+        let pair = insertion.pair.filter(|_| self.pairs_as_wished);
+        let of_pair = pair.and_then(|pair| self.size.of_pair(surface, &pair));
+        let size = sizes.chain(of_pair).fold(f64::INFINITY, f64::min);
         let distance = self.near.map_or(1.0, |near| {
             (self.world_from_object * (position - self.eye)).length().max(near)
         });

@@ -4,7 +4,7 @@ use crate::height_bounds::{HeightBounds, HeightScale};
 use crate::interpolation::interpolate;
 use crate::map::{MAP_ERROR, Map, MapPosition};
 use crate::quad_coord::{QuadCoord, UNIT};
-use crate::surface::uniform;
+use crate::surface::{HALF_LEVEL, uniform};
 use crate::{
     HeightMap, HeightMapError, Interpolation, OwnCoord, ParameterError, SettingError, Surface, SurfaceBound,
     SurfaceFrame, SurfaceTables, diamond,
@@ -180,6 +180,7 @@ impl Surface for HeightField {
             size,
             guard: 2.0 * reach * steepness,
             deviation: size,
+            pair_deviation: HALF_LEVEL * size,
         }
     }
 

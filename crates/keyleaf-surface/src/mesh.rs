@@ -217,6 +217,8 @@ impl Surface for Mesh {
             size: speed * diamond::level_scale(leaf.level),
             guard: 2.0 * radius,
             deviation: self.twists[root] * diamond::level_scale(leaf.level).powi(2),
+            // The diagonals of a twisted quad are as far from it as the triangles that have them as legs.
+            pair_deviation: self.twists[root] * diamond::level_scale(leaf.level).powi(2),
         }
     }
 

@@ -1,5 +1,6 @@
 //! How coarse a leaf is, before the view counts. Twin of `shaders/metrics`.
 
+use crate::surface::HALF_LEVEL;
 use crate::{Surface, diamond};
 use glam::DVec3;
 use keyleaf_key::{MAX_LEVEL, ONE, Place, RootPoint, neighbour};
@@ -51,10 +52,11 @@ pub enum MetricSize {
 /// weights (1 − c)/2, (1 − c)/2, c of the corners it is (1 − c)(1 + 2 c).
 const FARTHEST: f64 = 1.125;
 
-/// A leaf whose surface is sampled at quarters of its legs.
+/// A leaf, or the pair of which it is the even half, whose surface is sampled at quarters of the legs.
 struct Samples<'a> {
     surface: &'a dyn Surface,
     leaf: Place,
+    is_pair: bool,
 }
 
 /// O, R and U in quarters of the legs.
@@ -62,8 +64,15 @@ const CORNERS: [[u32; 2]; 3] = [[0, 0], [4, 0], [0, 4]];
 
 impl Samples<'_> {
     fn at(&self, [a, b]: [u32; 2]) -> DVec3 {
-        let quarter = self.leaf.unit() / 4;
-        self.surface.point(self.leaf.at(quarter * a, quarter * b))
+        let (unit, quarter) = (self.leaf.unit(), self.leaf.unit() / 4);
+        self.surface.point(if self.is_pair {
+            self.leaf.at(
+                unit.wrapping_sub(quarter * (a + b)),
+                (quarter * a).wrapping_sub(quarter * b),
+            )
+        } else {
+            self.leaf.at(quarter * a, quarter * b)
+        })
     }
 
     /// A point of edge `i`, in quarters from its start.
@@ -168,14 +177,40 @@ impl MetricSize {
             _ if leaf.level + 2 > MAX_LEVEL => 0.0,
             _ => {
                 let other = neighbour::h(topology, *leaf);
-                let sizes = other.iter().map(|other| self.of_half(surface, *other));
-                sizes.fold(self.of_half(surface, *leaf), f64::max)
+                let sizes = other.iter().map(|other| self.of_half(surface, *other, false));
+                sizes.fold(self.of_half(surface, *leaf, false), f64::max)
             }
         }
     }
 
-    fn of_half(self, surface: &dyn Surface, leaf: Place) -> f64 {
-        let samples = Samples { surface, leaf };
+    /// The size of what a leaf below the roots may be drawn as half of: the pair of it and its sibling, or the pair across their leg,
+    /// whichever is larger. Leaves so deep that quarters have no coordinates have none: infinite.
+    pub fn of_pair(self, surface: &dyn Surface, leaf: &Place) -> Option<f64> {
+        let [own, sibling, across, other] = neighbour::about_right_angle(surface.topology(), *leaf)?;
+        let is_even = |node: &&Place| node.digit().is_some_and(|digit| digit % 2 == 0);
+        let pairs = [[own, sibling], [across, other]].map(|pair| pair.iter().find(is_even).copied());
+        let sizes = pairs.into_iter().flatten().map(|even| self.of_own_pair(surface, even));
+        Some(sizes.fold(0.0, f64::max))
+    }
+
+    /// Of the pair of which it is the even half.
+    fn of_own_pair(self, surface: &dyn Surface, even: Place) -> f64 {
+        let parent = even.parent().unwrap_or(even);
+        match self {
+            Self::Edge | Self::Distance | Self::Boundary(_) | Self::LocalArea => HALF_LEVEL * self.of(surface, &parent),
+            Self::Deviation { grid } => {
+                let bound = surface.bound(&parent);
+                bound
+                    .pair_deviation
+                    .min(FARTHEST * bound.size * f64::from(1u32 << grid))
+            }
+            _ if even.level + 2 > MAX_LEVEL => f64::INFINITY,
+            _ => self.of_half(surface, even, true),
+        }
+    }
+
+    fn of_half(self, surface: &dyn Surface, leaf: Place, is_pair: bool) -> f64 {
+        let samples = Samples { surface, leaf, is_pair };
         match self {
             Self::LinearApproximation => samples.linear_approximation(),
             Self::DistanceTest => samples.over_edges(|edge| {

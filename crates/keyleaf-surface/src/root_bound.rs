@@ -36,6 +36,8 @@ impl RootBound {
             // Centres may be off as well, at every level.
             guard: 2.0 * ball + 2.0 * error * f64::from(MAX_LEVEL + 2 - leaf.level),
             deviation: self.deviation * scale * scale,
+            // Both are of sums of all second derivatives, and half a triangle is half as wide in every direction.
+            pair_deviation: self.deviation * scale * scale / 4.0,
         }
     }
 

@@ -136,7 +136,12 @@ pub struct SurfaceBound {
     /// For [`Mesh`](crate::Mesh) and [`Patches`](crate::Patches) from second derivatives, at most a quarter of the parent's. For other
     /// surfaces [`size`](Self::size), which bounds how far a point is from the nearest corner.
     pub deviation: f64,
+    /// The same for the halves of such a triangle on both sides of its median, which are drawn in the place of two children each.
+    pub pair_deviation: f64,
 }
+
+/// How long the edges of half a triangle are, by those of the whole.
+pub(crate) const HALF_LEVEL: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// What a surface module reads in group 1: binding 0 `params`, 2 `a`, 3 `b`, 4 `heights`, 5 `height_bounds`. An empty table or
 /// absent texture is not declared by the module.

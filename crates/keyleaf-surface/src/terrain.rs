@@ -4,7 +4,7 @@ use crate::direction::round_up;
 use crate::map::{Map, MapPosition};
 use crate::noise::{NOISE2_LARGEST, NOISE2_SLOPE, noise2, octave_seed};
 use crate::quad_coord::{QuadCoord, UNIT};
-use crate::surface::uniform;
+use crate::surface::{HALF_LEVEL, uniform};
 use crate::{OwnCoord, ParameterError, SettingError, Surface, SurfaceBound, SurfaceFrame, SurfaceTables, diamond};
 use encase::ShaderType;
 use glam::{DVec2, DVec3};
@@ -244,6 +244,7 @@ impl Surface for Terrain {
             size,
             guard: 2.0 * reach * 1f64.hypot(self.steepest_slope()),
             deviation: size,
+            pair_deviation: HALF_LEVEL * size,
         }
     }
 

@@ -240,6 +240,7 @@ fn bounds_are_conservative_symmetric_and_nested_in_f32() {
                 (bound.size, truth.size),
                 (bound.guard, truth.guard),
                 (bound.deviation, truth.deviation),
+                (bound.pair_deviation, truth.pair_deviation),
             ] {
                 assert!(
                     f64::from(gpu) >= truth * (1.0 - 1e-5) - 1e-30,

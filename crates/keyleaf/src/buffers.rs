@@ -41,17 +41,18 @@ pub(crate) fn check_capacity(
     surface: &dyn Surface,
     settings: &Settings,
 ) -> Result<(), KeyleafError> {
-    let (capacity, back_faces) = (settings.capacity, settings.drawn_faces());
+    let capacity = settings.capacity;
+    let buffer_bytes = |capacity| layout::buffer_bytes(capacity, settings.drawn_faces(), settings.pairs);
     let roots = surface.topology().half_edge_count();
     if capacity < roots {
         return Err(KeyleafError::CapacityBelowRoots { capacity, roots });
     }
     let limits = device.limits();
     let limit = limits.max_storage_buffer_binding_size.min(limits.max_buffer_size);
-    for (buffer, bytes) in layout::buffer_bytes(capacity, back_faces) {
+    for (buffer, bytes) in buffer_bytes(capacity) {
         if bytes > limit {
             let mut most = capacity;
-            while layout::buffer_bytes(most, back_faces).iter().any(|(_, b)| *b > limit) {
+            while buffer_bytes(most).iter().any(|(_, b)| *b > limit) {
                 most -= (most / 64).max(1);
             }
             return Err(KeyleafError::BeyondLimits {
@@ -80,7 +81,7 @@ impl Buffers {
         };
         let storage = U::STORAGE | U::COPY_DST | U::COPY_SRC;
         let sized = |name: &str| {
-            let bytes = layout::buffer_bytes(settings.capacity, settings.drawn_faces())
+            let bytes = layout::buffer_bytes(settings.capacity, settings.drawn_faces(), settings.pairs)
                 .iter()
                 .find(|(n, _)| *n == name)
                 .map_or(16, |(_, b)| (*b).max(16));

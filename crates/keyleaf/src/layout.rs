@@ -1,7 +1,7 @@
 //! How the quadtree's buffers are laid out: the Rust side of `shaders/shared/leaf.wgsl`, `control.wgsl` and of the constants of
 //! `passes/copy.wgsl`. A test of the workspace compares sizes and offsets with those that naga computes.
 
-use crate::settings::BackFaces;
+use crate::settings::{BackFaces, Pairs};
 use bytemuck::{Pod, Zeroable};
 use keyleaf_key::{Key, Place};
 
@@ -64,9 +64,9 @@ pub struct Measure {
     pub parent_radius: f32,
 }
 
-/// Flags of a state word (its low seven bits hold these and the digit; the others are the published wish).
+/// Flags of a state word (its low eight bits hold these and the digit; the others are the published wish).
 pub mod state {
-    /// Half of a pair, and blocked.
+    /// Drawn as half of a pair. If the leaf is not free, it must be, and may not split.
     pub const PAIR: u32 = 1;
     /// Made since the last publication.
     pub const FRESH: u32 = 2;
@@ -78,15 +78,17 @@ pub mod state {
     pub const DIGIT_SHIFT: u32 = 4;
     /// The digit of a root.
     pub const ROOT_DIGIT: u32 = 4;
+    /// The four nodes about the right angle are leaves: both pairs may be drawn, or none.
+    pub const FREE: u32 = 0x80;
     /// All bits that are not the wish.
-    pub const FLAGS: u32 = 0x7f;
+    pub const FLAGS: u32 = 0xff;
 
     /// The last digit, 0..=3, or [`ROOT_DIGIT`].
     pub fn digit(word: u32) -> u32 {
         (word >> DIGIT_SHIFT) & 7
     }
 
-    /// The published wish: metric over threshold, 17 bits of mantissa.
+    /// The published wish: metric over threshold, 16 bits of mantissa.
     pub fn wish(word: u32) -> f32 {
         f32::from_bits((word & !FLAGS) >> 1)
     }
@@ -208,14 +210,20 @@ pub fn place_hash(p: &Place) -> u32 {
     h ^ (h >> 16)
 }
 
-/// Bytes of each buffer whose size depends on the capacity, with the name that `plan` prints. Normal cones of leaves, if there are any,
-/// lie behind the parents.
-pub fn buffer_bytes(capacity: u32, back_faces: BackFaces) -> [(&'static str, u64); 6] {
+/// Four floats a slot each: parents of even children, normal cones of leaves if there are any, and what is known of pairs that need not be.
+/// How many of those come before the pairs.
+pub fn pairs_follow(back_faces: BackFaces) -> u32 {
+    1 + u32::from(back_faces.has_leaf_cones())
+}
+
+/// Bytes of each buffer whose size depends on the capacity, with the name that `plan` prints.
+pub fn buffer_bytes(capacity: u32, back_faces: BackFaces, pairs: Pairs) -> [(&'static str, u64); 6] {
     let slots = u64::from(capacity);
+    let behind = pairs_follow(back_faces) + u32::from(pairs == Pairs::Wished);
     [
         ("leaves", slots * size_of::<Leaf>() as u64),
         ("measures", slots * size_of::<Measure>() as u64),
-        ("parents", slots * if back_faces.has_leaf_cones() { 32 } else { 16 }),
+        ("parents", slots * 16 * u64::from(behind)),
         ("state", slots * 8),
         ("lists", slots * 16),
         ("table", u64::from(table_entries(capacity)) * 4),

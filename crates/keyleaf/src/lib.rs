@@ -77,7 +77,7 @@ pub use keyleaf_key as key;
 pub use keyleaf_surface as surface;
 pub use passes::{Kind, Module, Passes, modules};
 pub use quadtree::{Phase, Quadtree};
-pub use settings::{BackFaces, Balance, Metric, Morph, Settings, Threshold};
+pub use settings::{BackFaces, Balance, Metric, Morph, Pairs, Settings, Threshold};
 pub use statistics::Statistics;
 pub use view::{Frame, Projection, View};
 pub use wgpu;

@@ -21,6 +21,8 @@ pub struct Kind {
     pub back_faces: BackFaces,
     /// Where the vertices that a split adds are drawn. The passes are the same with and without.
     pub morph: Morph,
+    /// WGSL file of the size of a pair, where pairs may be wished.
+    pub pair_metric: Option<&'static str>,
     /// WGSL file by which a moving surface is posed.
     pub pose: Option<&'static str>,
 }
@@ -28,10 +30,15 @@ pub struct Kind {
 impl Kind {
     /// The WGSL files that say where vertices are drawn.
     pub fn drawing_files(&self) -> Vec<&'static str> {
-        match self.morph {
-            Morph::None => vec![self.morph.shader(), self.surface],
-            Morph::Geomorph => vec![self.morph.shader(), self.metric, self.surface],
+        let mut files = vec![self.morph.shader(), self.surface];
+        if self.morph == Morph::Geomorph {
+            files.push(self.metric);
+            files.extend(match self.pair_metric {
+                Some(pair) => vec!["pairs/morph_wished.wgsl", pair],
+                None => vec!["pairs/morph_forced.wgsl"],
+            });
         }
+        files
     }
 
     /// Refuses to cull the faces of a surface that has no control net.
@@ -104,26 +111,37 @@ pub fn modules(kind: &Kind) -> Vec<Module> {
     } else {
         ("shared/cone_none.wgsl", "shared/cone_none.wgsl")
     };
+    let (pairs, pairs_kept, pairs_moved) = match kind.pair_metric {
+        None => (
+            "shared/pairs_forced.wgsl",
+            vec!["shared/pair_none.wgsl"],
+            "shared/pair_none.wgsl",
+        ),
+        Some(metric) => (
+            "shared/pairs_wished.wgsl",
+            vec!["shared/pair_measured.wgsl", metric],
+            "shared/pair_moved.wgsl",
+        ),
+    };
+    let measure = [
+        &["passes/measure.wgsl", speaker, kept, kind.surface, kind.metric][..],
+        &pairs_kept,
+    ]
+    .concat();
     let mut all = vec![
         module(
             "update",
-            &["passes/update.wgsl", speaker, facing],
+            &["passes/update.wgsl", speaker, facing, pairs],
             update,
             false,
             &["update", "update_requested"],
         ),
         module("decide", &[decide], DECIDE, true, &["decide_splits", "decide_merges"]),
         module("apply", change, APPLY, true, &["apply"]),
-        module(
-            "measure",
-            &["passes/measure.wgsl", speaker, kept, kind.surface, kind.metric],
-            MEASURE,
-            true,
-            &["measure", "measure_all"],
-        ),
+        module("measure", &measure, MEASURE, true, &["measure", "measure_all"]),
         module(
             "compact",
-            &["passes/compact.wgsl", moved],
+            &["passes/compact.wgsl", moved, pairs_moved],
             COMPACT,
             false,
             &["match_slots", "move_leaves"],

@@ -32,7 +32,7 @@ use crate::buffers::{Buffers, Groups, check_capacity};
 use crate::layout::{self, Control, Leaf, arguments, state};
 use crate::passes::{Kind, Passes, Stage};
 use crate::posing::Posing;
-use crate::settings::{Balance, Morph};
+use crate::settings::{Balance, Morph, Pairs};
 use crate::statistics::{Statistics, StatisticsReader};
 use crate::surface_buffers::SurfaceBuffers;
 use crate::view::{Frame, View};
@@ -111,6 +111,7 @@ impl Quadtree {
             balance: settings.balance,
             back_faces: settings.drawn_faces(),
             morph: settings.morph,
+            pair_metric: (settings.pairs == Pairs::Wished).then(|| settings.metric.pair_shader()),
             pose: if settings.moving { surface.pose_shader() } else { None },
         }
     }
@@ -203,6 +204,9 @@ impl Quadtree {
         }
         if settings.drawn_faces() != self.settings.drawn_faces() {
             return fixed("back_faces", settings.back_faces.name().to_owned());
+        }
+        if settings.pairs != self.settings.pairs {
+            return fixed("pairs", settings.pairs.name().to_owned());
         }
         if settings.moving != self.settings.moving {
             return fixed("moving", settings.moving.to_string());
@@ -518,7 +522,8 @@ impl Quadtree {
 
     /// (name, bytes) of every buffer and texture.
     pub fn memory(&self) -> Vec<(&'static str, u64)> {
-        let mut all = layout::buffer_bytes(self.settings.capacity, self.settings.drawn_faces()).to_vec();
+        let mut all =
+            layout::buffer_bytes(self.settings.capacity, self.settings.drawn_faces(), self.settings.pairs).to_vec();
         all.push(("frame", self.buffers.frame.size()));
         all.push(("control", self.buffers.control.size()));
         all.push(("arguments", self.buffers.arguments.size()));

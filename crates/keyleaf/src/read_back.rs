@@ -28,6 +28,11 @@ impl Snapshot {
     pub fn is_pair(&self, slot: usize) -> bool {
         self.states[slot] & state::PAIR != 0
     }
+
+    /// Whether the four nodes about the right angle of the leaf in a slot are leaves, so that it may be half of a pair, and need not be.
+    pub fn is_free(&self, slot: usize) -> bool {
+        self.states[slot] & state::FREE != 0
+    }
 }
 
 impl Quadtree {

@@ -90,6 +90,19 @@ impl Metric {
         }
     }
 
+    /// The WGSL file that defines `pair_size`.
+    pub fn pair_shader(&self) -> &'static str {
+        match self {
+            Self::Edge { .. } | Self::Distance { .. } | Self::Boundary { .. } | Self::LocalArea { .. } => {
+                "pairs/of_parent.wgsl"
+            }
+            Self::Deviation { .. } => "pairs/deviation.wgsl",
+            Self::LinearApproximation { .. } | Self::DistanceTest(_) | Self::FlatTest(_) | Self::LengthTest(_) => {
+                "pairs/sampled.wgsl"
+            }
+        }
+    }
+
     /// The name that scenes and `plan` use.
     pub fn name(&self) -> &'static str {
         match self {
@@ -233,6 +246,8 @@ pub struct Settings {
     /// Where the vertices that a split adds are drawn. May change from frame to frame, with another
     /// [`LeafPipeline`](crate::draw::LeafPipeline).
     pub morph: Morph,
+    /// Which leaves are drawn as pairs.
+    pub pairs: Pairs,
     /// Whether the control mesh of the surface moves, see [`Quadtree::set_cage`](crate::Quadtree::set_cage).
     pub moving: bool,
 }
@@ -335,6 +350,30 @@ impl Morph {
     }
 }
 
+/// Which leaves are drawn as pairs: two as one triangle, half a level between them and their parent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Pairs {
+    /// Those beside a leaf that has no vertex between them.
+    #[default]
+    Forced,
+    /// Also those with which the metric is satisfied, on both sides of a leg: triangles come in powers of two, not of four. Takes 16 bytes a
+    /// leaf, and the surface is asked more of new leaves.
+    Wished,
+}
+
+impl Pairs {
+    /// All.
+    pub const ALL: [Self; 2] = [Self::Forced, Self::Wished];
+
+    /// The name that `plan` and the program use.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Forced => "forced",
+            Self::Wished => "wished",
+        }
+    }
+}
+
 /// How neighbours are kept from cracking.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum Balance {
@@ -360,6 +399,7 @@ impl Default for Settings {
             balance: Balance::Table,
             back_faces: BackFaces::Drawn,
             morph: Morph::None,
+            pairs: Pairs::default(),
             moving: false,
         }
     }

@@ -1,7 +1,7 @@
 //! A camera, and what it asks of a quadtree.
 
 use crate::Settings;
-use crate::settings::{Morph, Scale};
+use crate::settings::{Morph, Pairs, Scale};
 use encase::ShaderType;
 use glam::{DAffine3, DMat3, DQuat, DVec3, Mat4, UVec2, Vec3, Vec4};
 use keyleaf_key::MAX_LEVEL;
@@ -178,6 +178,8 @@ pub struct Frame {
     pub view_serial: u32,
     /// For metrics that have one.
     pub metric_parameter: f32,
+    /// Where, in the array of parents, what is known of pairs begins.
+    pub pairs: u32,
     /// As `eye`: from where the leaves were refined.
     pub refined_eye: Vec3,
     /// Wish of a node that is as large as it is far away.
@@ -208,6 +210,7 @@ impl View {
         Geomorph {
             size: settings.metric.size(settings.base_grid),
             base_grid: settings.base_grid,
+            pairs_as_wished: settings.pairs == Pairs::Wished,
             wish_scale: wish_scale(self, linear, settings),
             wish_when_near: wish_when_near(self, settings),
             eye: world_from_object.inverse().transform_point3(self.eye),
@@ -279,12 +282,15 @@ impl Frame {
             base_grid: settings.base_grid,
             view_serial: 0,
             metric_parameter: settings.metric.parameter(),
+            pairs: settings.capacity * crate::layout::pairs_follow(settings.drawn_faces()),
             refined_eye: refined_eye.as_vec3(),
             wish_when_near: wish_when_near(refined, settings) as f32,
             morph_slack: match settings.morph {
                 Morph::None => 0.0,
                 // While it is on its way, the wish is below 2, and an edge shorter than twice the size.
-                Morph::Geomorph => 4.0 / (1u32 << settings.base_grid) as f32,
+                Morph::Geomorph if settings.pairs == Pairs::Forced => 4.0 / (1u32 << settings.base_grid) as f32,
+                // The vertices that pairs leave out start later by the root of two.
+                Morph::Geomorph => 6.0 / (1u32 << settings.base_grid) as f32,
             },
             pressure: 0,
         }

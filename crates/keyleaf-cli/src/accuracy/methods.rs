@@ -8,7 +8,7 @@ use super::studio::{Setup, Studio, with_object, with_settings};
 use crate::output::thousands;
 use crate::progress;
 use anyhow::Context;
-use keyleaf::{BackFaces, Metric, Projection, Threshold, View};
+use keyleaf::{BackFaces, Metric, Pairs, Projection, Threshold, View};
 use keyleaf_baseline::{Deviation, Method, Quality, deviation};
 use keyleaf_stage::{Loaded, Pipelines};
 use serde_json::json;
@@ -65,6 +65,7 @@ impl Curve {
         let start = with_settings(scene, |settings| {
             settings.metric = metric(coarse);
             settings.base_grid = 0; // a triangle a leaf
+            settings.pairs = Pairs::Wished;
             settings.target_leaves = 0;
             settings.capacity = settings.capacity.max(1 << 20);
         });

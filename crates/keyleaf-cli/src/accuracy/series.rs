@@ -3,7 +3,7 @@
 use super::isolation::isolated;
 use keyleaf::key::MAX_LEVEL;
 use keyleaf::surface::{BasisMethod, PatchKind, PatchSettings, Patches, Surface};
-use keyleaf::{BackFaces, Balance, Metric, Morph, Settings};
+use keyleaf::{BackFaces, Balance, Metric, Morph, Pairs, Settings};
 use keyleaf_scene::scene::{GaussianShape, QasShape, QasVariant, Shape, Solver};
 use keyleaf_stage::{Loaded, LoadedObject};
 use std::sync::Arc;
@@ -163,6 +163,13 @@ pub fn all(loaded: &Loaded, quick: bool) -> Vec<Series> {
                     with_settings(&scene, |settings| settings.morph = Morph::Geomorph),
                 )
             })
+            .collect(),
+    ));
+    all.push(refining(
+        "edge, pairs as wished",
+        pixels(&EDGES, |pixels| Metric::Edge { pixels })
+            .into_iter()
+            .map(|(label, scene)| (label, with_settings(&scene, |settings| settings.pairs = Pairs::Wished)))
             .collect(),
     ));
     let with = |change: &dyn Fn(&mut Settings)| with_settings(&compared(loaded), change);

@@ -30,8 +30,8 @@ mod wish;
 pub use check::{Crack, Violation, cracks, violations};
 pub use wish::{BUCKETS, Buckets, bucket, quantise, wish};
 
-use crate::neighbour::across_outer_leg;
-use crate::{Census, MAX_LEVEL, Place, RootPoint, Topology};
+use crate::neighbour::{about_right_angle, across_outer_leg};
+use crate::{Census, MAX_LEVEL, Place, RootPoint, Site, Topology};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// What a leaf published in the pass before, for the others to decide by.
@@ -182,9 +182,23 @@ impl<'t> Forest<'t> {
         across_outer_leg(self.topology, leaf).filter(|across| self.leaves.contains_key(across))
     }
 
+    /// Whether the four nodes about the right angle of the leaf are leaves: then both pairs of them may be drawn as one triangle each, or none.
+    pub fn is_free(&self, leaf: Place) -> bool {
+        let about = about_right_angle(self.topology, leaf);
+        about.is_some_and(|nodes| nodes.iter().all(|node| self.leaves.contains_key(node)))
+    }
+
     /// The triangles that are drawn, those of pairs merged: corners in the order O, R, U.
     pub fn drawn(&self) -> impl Iterator<Item = [RootPoint; 3]> {
-        self.leaves.keys().filter_map(|leaf| leaf.drawn(self.is_blocked(*leaf)))
+        self.drawn_with_pairs(|_| false)
+    }
+
+    /// The same where pairs of [free](Self::is_free) leaves are drawn as well if `is_enough` says so of the vertex between them.
+    pub fn drawn_with_pairs(&self, is_enough: impl Fn(Site) -> bool) -> impl Iterator<Item = [RootPoint; 3]> {
+        self.leaves.keys().filter_map(move |&leaf| {
+            let between = Site::of(self.topology, leaf.at(0, 0));
+            leaf.drawn(self.is_blocked(leaf) || self.is_free(leaf) && is_enough(between))
+        })
     }
 
     /// What breaks the cover of the roots or an invariant, nothing after any number of passes.

@@ -1,14 +1,14 @@
 //! Wishes as numbers: how they are rounded, and which of them fit the buffer (ARCHITECTURE section 4).
 
 /// Mantissa bits of a wish that are cleared. The GPU keeps flags there, and both twins compare the same rounded value.
-const CLEARED_BITS: u32 = 6;
+const CLEARED_BITS: u32 = 7;
 
 /// How many buckets of priority there are: wishes from 2^31 on share the last.
 pub const BUCKETS: usize = 32;
 
-/// The wish rounded down by at most 2^-17 of itself, to 17 bits of mantissa, as leaves publish it. Negative numbers and NaN become 0.
+/// The wish rounded down by at most 2^-16 of itself, to 16 bits of mantissa, as leaves publish it. Negative numbers and NaN become 0.
 ///
-/// It is monotone, so a nested metric stays nested, and no wish of 1 + 2^-17 or more becomes 1.
+/// It is monotone, so a nested metric stays nested, and no wish of 1 + 2^-16 or more becomes 1.
 pub fn quantise(wish: f32) -> f32 {
     if wish > 0.0 {
         f32::from_bits(wish.to_bits() >> CLEARED_BITS << CLEARED_BITS)
@@ -66,12 +66,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn quantising_is_monotone_and_rounds_down_by_less_than_two_to_the_minus_seventeen() {
+    fn quantising_is_monotone_and_rounds_down_by_less_than_two_to_the_minus_sixteen() {
         let mut last = 0.0;
         for i in 0..100_000_u32 {
             let wish = f32::from_bits(0x3f00_0000 + 137 * i);
             let rounded = quantise(wish);
-            assert!(rounded <= wish && wish - rounded < wish * 2.0_f32.powi(-17));
+            assert!(rounded <= wish && wish - rounded < wish * 2.0_f32.powi(-16));
             assert!(rounded >= last && quantise(rounded) == rounded);
             last = rounded;
         }

@@ -60,6 +60,19 @@ pub fn across_outer_leg(topology: &Topology, node: Place) -> Option<Place> {
     })
 }
 
+/// The four nodes about the vertex at the right angle of a node, which is the middle of the leg that its parent and C(n) share: their
+/// children along that leg, the node and its sibling first. None at a root.
+///
+/// Where all four are leaves, they may be drawn as two pairs, without that vertex: their other edges are hypotenuses and outer legs of
+/// theirs, which stay as they are.
+pub fn about_right_angle(topology: &Topology, node: Place) -> Option<[Place; 4]> {
+    let (parent, digit) = node.ascend()?;
+    let across = across_outer_leg(topology, node)?;
+    let side = digit & 2;
+    let sibling = parent.child(digit ^ 1);
+    Some([node, sibling, across.child(2 - side), across.child(3 - side)])
+}
+
 /// The node with the same O, turned left by `turns` quarters more. `on_x_axis` is the orientation in which the leg to be
 /// crossed lies along the first axis of root space with the node above it; one turn to the right (orientation - 1) it lies
 /// along the second.

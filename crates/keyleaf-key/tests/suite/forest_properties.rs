@@ -2,8 +2,8 @@
 
 use crate::meshes;
 use crate::metrics::{self, Kind, Metric};
-use keyleaf_key::forest::wish;
-use keyleaf_key::{Forest, Place, Pressure, Topology, neighbour};
+use keyleaf_key::forest::{cracks, wish};
+use keyleaf_key::{Forest, Place, Pressure, Site, Topology, neighbour};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 
@@ -44,6 +44,9 @@ proptest! {
             for _ in 0..passes {
                 forest.update(|node| metric(node) * scale, capacity);
                 assert_closed(&forest);
+                // Whichever vertices between free leaves pairs leave out.
+                let is_enough = |between: Site| format!("{between:?}").bytes().map(u32::from).sum::<u32>() % 3 == 0;
+                assert_eq!(cracks(&topology, forest.drawn_with_pairs(is_enough)), []);
                 prop_assert!(forest.leaves.len() <= capacity);
             }
         }

@@ -131,6 +131,7 @@ impl Surface for Sphere {
             size: 2.0,
             guard: 4.0,
             deviation: 2.0,
+            pair_deviation: 2.0,
         }
     }
 

@@ -65,7 +65,7 @@ pub use light::{Effect, Fog, Light};
 pub use motion::{BlendTrack, GroupTrack, Motion, Track, TransformKey, WeightKey};
 pub(crate) use patches::bezier_surface;
 pub use patches::{Basis, BezierSource, NurbsPatch, NurbsSource, PatchesSource};
-pub use settings::{BackFaces, Culling, GuardBand, Metric, Morph, Settings, SettingsOverrides, Threshold};
+pub use settings::{BackFaces, Culling, GuardBand, Metric, Morph, Pairs, Settings, SettingsOverrides, Threshold};
 pub use shape_name::{ShapeName, UnknownShape};
 pub use subdivision::{
     Boundary, Covariances, CreaseMethod, GaussianScheme, GaussianShape, LoopShape, LoopWeights, NormalCovariances,

@@ -28,6 +28,8 @@ pub struct Settings {
     pub back_faces: BackFaces,
     /// Where the vertices that a split adds are drawn. Default `None`.
     pub morph: Morph,
+    /// Which leaves are drawn as pairs, two as one triangle. Default `Forced`.
+    pub pairs: Pairs,
 }
 
 impl Default for Settings {
@@ -43,6 +45,7 @@ impl Default for Settings {
             culling: Culling::default(),
             back_faces: BackFaces::default(),
             morph: Morph::default(),
+            pairs: Pairs::default(),
         }
     }
 }
@@ -215,6 +218,16 @@ pub enum Morph {
     /// First on the edge that they divide, from where they slide to the surface as the camera comes nearer: nothing jumps. For the metrics
     /// `Edge`, `Boundary` and `LocalArea`.
     Geomorph,
+}
+
+/// Which leaves are drawn as pairs, two as one triangle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+pub enum Pairs {
+    /// Where they must be, beside larger ones.
+    #[default]
+    Forced,
+    /// Also where the metric is satisfied with triangles twice as large.
+    Wished,
 }
 
 /// Settings that a surface has for itself; what is `None` is as in the scene.

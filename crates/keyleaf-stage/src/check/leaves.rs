@@ -3,7 +3,7 @@
 use super::weld::{QuickMap, place_number};
 use super::{FindingKind, Findings};
 use keyleaf::key::forest::{Violation, violations};
-use keyleaf::key::neighbour::across_outer_leg;
+use keyleaf::key::neighbour::{about_right_angle, across_outer_leg};
 use keyleaf::key::{Place, Topology};
 use keyleaf::layout::{Leaf, state};
 use keyleaf::read_back::Snapshot;
@@ -106,11 +106,11 @@ fn states(
     settings: &Settings,
     findings: &mut Findings,
 ) {
-    let there: QuickMap<u128, ()> = places
-        .iter()
-        .flatten()
-        .map(|p| (place_number(topology, *p), ()))
+    let there: QuickMap<u128, usize> = (0..)
+        .zip(places)
+        .filter_map(|(slot, place)| Some((place_number(topology, (*place)?), slot)))
         .collect();
+    let slot_of = |place: Place| there.get(&place_number(topology, place)).copied();
     for (slot, place) in places.iter().enumerate() {
         let Some(place) = *place else { continue };
         let word = snapshot.states[slot];
@@ -120,13 +120,45 @@ fn states(
                 format!("slot {slot} says digit {}, the key says {digit}", state::digit(word))
             });
         }
+        if settings.balance == Balance::Off {
+            continue;
+        }
+        let about = about_right_angle(topology, place);
+        let about = about.and_then(|nodes| {
+            Some([
+                slot_of(nodes[0])?,
+                slot_of(nodes[1])?,
+                slot_of(nodes[2])?,
+                slot_of(nodes[3])?,
+            ])
+        });
+        if snapshot.is_free(slot) != about.is_some() {
+            findings.add(FindingKind::State, [place.key()], || {
+                let (are, flag) = if about.is_some() {
+                    ("are", "not set")
+                } else {
+                    ("are not", "set")
+                };
+                format!("the four nodes about the right angle {are} leaves, and the flag is {flag}")
+            });
+        }
         let larger = across_outer_leg(topology, place);
-        let is_pair = larger.is_some_and(|larger| there.contains_key(&place_number(topology, larger)));
-        if settings.balance == Balance::Table && snapshot.is_pair(slot) != is_pair {
+        let is_blocked = larger.is_some_and(|larger| slot_of(larger).is_some());
+        let is_pair = snapshot.is_pair(slot);
+        if about.is_none() && is_pair != is_blocked {
             let keys = [Some(place), larger].into_iter().flatten().map(Place::key);
             findings.add(FindingKind::PairFlag, keys, || {
-                let (across, flag) = if is_pair { ("a", "not set") } else { ("no", "set") };
+                let (across, flag) = if is_blocked { ("a", "not set") } else { ("no", "set") };
                 format!("there is {across} leaf across the outer leg, and the flag is {flag}")
+            });
+        }
+        let other = about
+            .into_iter()
+            .flatten()
+            .find(|&other| snapshot.is_pair(other) != is_pair);
+        if let Some(other) = other.and_then(|other| places[other]) {
+            findings.add(FindingKind::PairFlag, [place.key(), other.key()], || {
+                "of the leaves about a right angle some are drawn as pairs, some are not".to_owned()
             });
         }
     }

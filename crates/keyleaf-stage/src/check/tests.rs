@@ -3,7 +3,7 @@
 use super::*;
 use glam::{DVec3, UVec2};
 use keyleaf::BackFaces;
-use keyleaf::key::neighbour::across_outer_leg;
+use keyleaf::key::neighbour::{about_right_angle, across_outer_leg};
 use keyleaf::key::{Forest, Key, Place};
 use keyleaf::layout::{Control, Leaf, NO_ENTRY, state, table_entries};
 use std::collections::BTreeSet;
@@ -40,7 +40,10 @@ fn snapshot(topology: &Topology, places: &[Place]) -> Snapshot {
     let mut leaves: Vec<Leaf> = places.iter().map(Leaf::new).collect();
     table::fill(&mut table, &mut leaves);
     let is_pair = |p: &Place| across_outer_leg(topology, *p).is_some_and(|c| there.contains(&c));
-    let word = |p: &Place| u32::from(is_pair(p)) | p.digit().unwrap_or(state::ROOT_DIGIT) << state::DIGIT_SHIFT;
+    let is_free =
+        |p: &Place| about_right_angle(topology, *p).is_some_and(|nodes| nodes.iter().all(|node| there.contains(node)));
+    let flags = |p: &Place| u32::from(is_pair(p)) * state::PAIR | u32::from(is_free(p)) * state::FREE;
+    let word = |p: &Place| flags(p) | p.digit().unwrap_or(state::ROOT_DIGIT) << state::DIGIT_SHIFT;
     let odd_half = |p: &Place| is_pair(p) && p.digit().is_some_and(|d| d & 1 == 1);
     let visible: Vec<u32> = (0..places.len() as u32)
         .filter(|&slot| !odd_half(&places[slot as usize]))
@@ -213,6 +216,42 @@ fn every_wrong_pair_flag_is_found_as_such_and_as_a_crack() {
         let edges = [FindingKind::Crack, FindingKind::TJunction, FindingKind::Overlap];
         assert!(edges.iter().any(|kind| found.contains(kind)), "slot {slot}: {found:?}");
     }
+}
+
+/// Slots of leaves that may be drawn as pairs, four about one vertex.
+fn free_slots(topology: &Topology, places: &[Place]) -> [usize; 4] {
+    let slot = |place: &Place| places.iter().position(|other| other == place);
+    let about = |place: &Place| Some(about_right_angle(topology, *place)?.map(|node| slot(&node)));
+    let mut all = places.iter().filter_map(about);
+    all.find_map(|[a, b, c, d]| Some([a?, b?, c?, d?]))
+        .expect("some are free")
+}
+
+#[test]
+fn free_leaves_may_be_pairs_all_four_or_none() {
+    let topology = mesh();
+    let places = refined(&topology, 7);
+    let four = free_slots(&topology, &places);
+    let paired = |count: usize| {
+        let mut snapshot = snapshot(&topology, &places);
+        for &slot in &four[..count] {
+            snapshot.states[slot] |= state::PAIR;
+        }
+        let is_odd = |slot: u32| places[slot as usize].digit().is_some_and(|digit| digit % 2 == 1);
+        let states = snapshot.states.clone();
+        snapshot
+            .visible
+            .retain(|&slot| !(is_odd(slot) && states[slot as usize] & state::PAIR != 0));
+        kinds(&check(&topology, &snapshot))
+    };
+    assert_eq!(paired(4), []);
+    for count in 1..4 {
+        let found = paired(count);
+        assert!(found.contains(&FindingKind::PairFlag), "{count}: {found:?}");
+    }
+    let mut broken = snapshot(&topology, &places);
+    broken.states[four[0]] ^= state::FREE;
+    assert!(kinds(&check(&topology, &broken)).contains(&FindingKind::State));
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! How far flat triangles are from a surface of four-cornered faces, by place. Twin of `shaders/shared/local_deviation.wgsl`.
 //!
-//! A face is cut into 4^depth cells, with coarser ones above them; each has two bounds, for hypotenuses along u and along v. A diamond
+//! A face is cut into 4^depth cells, with coarser ones above them; each has three bounds, for hypotenuses along u, along v, and for the
+//! halves of both kinds of triangles, whose hypotenuses are diagonal. A diamond
 //! of level l lies in two cells of level l, or, deeper than the cells go, in one or two of the finest. A hypotenuse on a mesh edge lies
 //! in one cell on either side: the edge has a list of its own, of intervals with the larger of both.
 //!
@@ -11,8 +12,8 @@ use crate::diamond;
 use crate::quad_coord::{QuadCoord, UNIT};
 use keyleaf_key::{HalfEdge, MAX_LEVEL, Place, Topology};
 
-/// Bounds of a cell: hypotenuses along u, and along v.
-type Cell = [f64; 2];
+/// Bounds of a cell: hypotenuses along u, along v, and halves.
+type Cell = [f64; 3];
 
 /// Times the square of the hypotenuse: the distance between a surface with second derivatives up to these (uu, uv, vv) and the flat
 /// right isosceles triangle over a hypotenuse along u.
@@ -22,6 +23,12 @@ type Cell = [f64; 2];
 fn of_second([uu, uv, vv]: [f64; 3]) -> f64 {
     // In this order rounding keeps of_second([vv, uv, uu]) ≤ 4 of_second([uu, uv, vv]).
     (uu / 8.0 + vv / 32.0) + uv / 16.0
+}
+
+/// Times the square of the same hypotenuse: the halves of the triangle. Their hypotenuses go half of it along u and along v; weights have
+/// variance at most 1/16 in both, and as much covariance.
+fn of_halves([uu, uv, vv]: [f64; 3]) -> f64 {
+    (uu + vv) / 32.0 + uv / 16.0
 }
 
 /// Bounds by cells and edges.
@@ -59,7 +66,7 @@ fn first_cell(level: u32) -> usize {
 }
 
 fn larger(a: Cell, b: Cell) -> Cell {
-    [a[0].max(b[0]), a[1].max(b[1])]
+    std::array::from_fn(|k| a[k].max(b[k]))
 }
 
 impl LocalDeviation {
@@ -82,7 +89,7 @@ impl LocalDeviation {
         self.depth
     }
 
-    /// Two floats a cell.
+    /// Three floats a cell.
     pub fn cells(&self) -> impl Iterator<Item = f64> {
         self.cells.iter().flatten().copied()
     }
@@ -118,36 +125,38 @@ impl LocalDeviation {
             .collect()
     }
 
-    /// The bound of a leaf.
-    pub fn of(&self, topology: &Topology, leaf: &Place) -> f64 {
+    /// The bounds of a leaf: of triangles of its level, and of the halves of its own.
+    pub fn of(&self, topology: &Topology, leaf: &Place) -> [f64; 2] {
         let level = leaf.level.min(self.depth);
         let centre = diamond::centre(leaf);
-        let constant = if diamond::crosses_edge(leaf) {
+        let QuadCoord { u, v } = QuadCoord::of(centre);
+        let [before, after] = [0, 1].map(|side| {
+            let of_axis = |value: u64| (((value + side).clamp(1, UNIT) - 1) >> (32 - level)) as u32;
+            self.cell(leaf.face, level, [of_axis(u), of_axis(v)])
+        });
+        let bounds = larger(before, after);
+        let whole = if diamond::crosses_edge(leaf) {
             let half_edge = topology.half_edge_index(leaf.face, leaf.root);
             let first = half_edge * intervals_of_edge(self.depth) + (1 << level) - 1;
             self.edges[(first + (centre.y >> (MAX_LEVEL - level))) as usize]
         } else {
-            let QuadCoord { u, v } = QuadCoord::of(centre);
-            let [before, after] = [0, 1].map(|side| {
-                let of_axis = |value: u64| (((value + side).clamp(1, UNIT) - 1) >> (32 - level)) as u32;
-                self.cell(leaf.face, level, [of_axis(u), of_axis(v)])
-            });
-            let axis = (leaf.root + leaf.orientation) as usize % 2;
-            larger(before, after)[axis]
+            bounds[(leaf.root + leaf.orientation) as usize % 2]
         };
         let scale = diamond::level_scale(leaf.level);
-        constant * scale * scale
+        [whole, bounds[2]].map(|bound| bound * scale * scale)
     }
 }
 
 /// All levels from the finest: a cell is the larger of the four below it.
 fn pyramid(depth: u32, finest: &[[f64; 3]]) -> Vec<Cell> {
-    let mut cells = vec![[0.0; 2]; first_cell(depth)];
-    cells.extend(
-        finest
-            .iter()
-            .map(|&[uu, uv, vv]| [of_second([uu, uv, vv]), of_second([vv, uv, uu])]),
-    );
+    let mut cells = vec![[0.0; 3]; first_cell(depth)];
+    cells.extend(finest.iter().map(|&[uu, uv, vv]| {
+        [
+            of_second([uu, uv, vv]),
+            of_second([vv, uv, uu]),
+            of_halves([uu, uv, vv]),
+        ]
+    }));
     for level in (0..depth).rev() {
         let side = 1 << level;
         let below = first_cell(level + 1);
@@ -156,7 +165,7 @@ fn pyramid(depth: u32, finest: &[[f64; 3]]) -> Vec<Cell> {
             cells[first_cell(level) + i + j * side] = [a, a + 1, b, b + 1]
                 .map(|k| cells[k])
                 .into_iter()
-                .fold([0.0; 2], larger);
+                .fold([0.0; 3], larger);
         }
     }
     cells

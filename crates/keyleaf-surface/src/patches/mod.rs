@@ -106,7 +106,7 @@ impl Default for PatchSettings {
 /// Where the weights of a corner vanish, so that the surface has no one point there, a point close by stands for it, and bounds are
 /// those that the extent of the control points suggests; elsewhere they are strict.
 ///
-/// GPU memory: 16 bytes a control point, 1,080 a face (424 where there are more than 4,096 faces, 248 above 65,536), and the floats of
+/// GPU memory: 16 bytes a control point, 1,420 a face (508 where there are more than 4,096 faces, 268 above 65,536), and the floats of
 /// spans that differ.
 ///
 /// ```
@@ -338,8 +338,10 @@ impl Surface for Patches {
 
     fn bound(&self, leaf: &Place) -> SurfaceBound {
         let bound = self.bounds[self.topology.half_edge_index(leaf.face, leaf.root) as usize];
+        let [deviation, pair_deviation] = self.deviations.of(&self.topology, leaf);
         SurfaceBound {
-            deviation: self.deviations.of(&self.topology, leaf),
+            deviation,
+            pair_deviation,
             ..bound.of_leaf(leaf, self.point(diamond::centre(leaf)), self.mismatch)
         }
     }

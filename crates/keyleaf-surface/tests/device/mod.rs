@@ -28,6 +28,7 @@ pub struct GpuBound {
     pub size: f32,
     pub guard: f32,
     pub deviation: f32,
+    pub pair_deviation: f32,
 }
 
 impl GpuBound {
@@ -72,6 +73,7 @@ fn bounds(@builtin(global_invocation_id) id: vec3u) {
     store(16u * id.x, bound.centre);
     store(16u * id.x + 3u, vec3f(bound.radius, bound.size, bound.guard));
     results[16u * id.x + 6u] = bound.deviation;
+    results[16u * id.x + 7u] = bound.pair_deviation;
 }
 ";
 
@@ -302,6 +304,7 @@ pub fn evaluate(
         size: w[4],
         guard: w[5],
         deviation: w[6],
+        pair_deviation: w[7],
     };
     Evaluated {
         frames: frames.chunks(16).map(frame).collect(),

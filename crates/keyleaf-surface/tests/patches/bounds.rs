@@ -6,7 +6,7 @@ use crate::oracles::tea_set;
 use crate::random::Random;
 use glam::DVec3;
 use keyleaf_key::{ONE, Place, RootPoint, neighbour};
-use keyleaf_surface::{NurbsSurface, Patches, Surface};
+use keyleaf_surface::{NurbsSurface, Patches, Surface, SurfaceBound};
 
 fn models() -> Vec<(&'static str, Patches)> {
     let uneven = |spread, seed| sheet([3, 2], [clamped(3, &[0.3, 0.6, 0.6]), clamped(2, &[0.5])], spread, seed);
@@ -80,7 +80,13 @@ fn balls_hold_the_surface_over_both_halves_and_both_halves_have_the_same() {
         for half in [Some(leaf), other].into_iter().flatten() {
             assert_eq!(model.bound(&half).radius, bound.radius);
             if leaf.level < 31 {
-                assert_eq!(model.bound(&half), bound, "{name}");
+                // Halves of a triangle are no matter of the diamond.
+                let pair_deviation = bound.pair_deviation;
+                let same = SurfaceBound {
+                    pair_deviation,
+                    ..model.bound(&half)
+                };
+                assert_eq!(same, bound, "{name}");
             }
             for at in points_of(&half, random) {
                 let outside = model.point(at).distance(bound.centre) - bound.radius;
@@ -113,7 +119,7 @@ fn inside(corners: [DVec3; 3], weights: [f64; 3]) -> DVec3 {
 }
 
 #[test]
-fn sizes_bound_hypotenuse_and_median_and_deviations_flat_triangles() {
+fn sizes_bound_hypotenuse_and_median_and_deviations_flat_triangles_and_their_halves() {
     for_every_leaf(|name, model, leaf, random| {
         let bound = model.bound(&leaf);
         let corners = leaf.corners().map(|at| model.point(at));
@@ -133,6 +139,13 @@ fn sizes_bound_hypotenuse_and_median_and_deviations_flat_triangles() {
             let off = model.point(leaf.at(a, b)).distance(flat);
             assert!(off <= bound.deviation + ERROR, "{name}: {off} {bound:?} {leaf:?}");
             assert!(off <= 1.125 * bound.size + ERROR, "{name}: {off} {bound:?} {leaf:?}");
+
+            // The same point in the half that is drawn instead of two children.
+            let half = [corners[0], corners[if a >= b { 1 } else { 2 }], middle];
+            let [far, near] = [a_weight.max(b_weight), a_weight.min(b_weight)];
+            let flat = inside(half, [1.0 - far - near, far - near, 2.0 * near]);
+            let off = model.point(leaf.at(a, b)).distance(flat);
+            assert!(off <= bound.pair_deviation + ERROR, "{name}: {off} {bound:?} {leaf:?}");
         }
     });
 }

@@ -132,7 +132,7 @@ fn half_edges_name_their_owners_and_bounds_are_rounded_up() {
         let topology = model.topology();
         assert_eq!(params.half_edges, 4 * params.faces);
         assert_eq!(params.cells, params.half_edges + 7 * topology.half_edge_count());
-        assert_eq!((params.depth, params.edges), (3, params.cells + 2 * 85 * params.faces));
+        assert_eq!((params.depth, params.edges), (3, params.cells + 3 * 85 * params.faces));
         assert_eq!(tables.a.len() as u32, 4 * (params.normals + params.faces));
         for normal in tables.a[4 * params.normals as usize..].chunks(4) {
             assert!((DVec3::new(normal[0].into(), normal[1].into(), normal[2].into()).length() - 1.0).abs() < 1e-6);

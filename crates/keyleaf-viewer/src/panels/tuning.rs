@@ -3,7 +3,7 @@
 use crate::action::Action;
 use crate::viewer::Viewer;
 use egui::{ComboBox, DragValue, Grid, RichText, Slider, Ui};
-use keyleaf_scene::scene::{BackFaces, Culling, Effect, Fog, Metric, Morph, Settings, Threshold};
+use keyleaf_scene::scene::{BackFaces, Culling, Effect, Fog, Metric, Morph, Pairs, Settings, Threshold};
 
 /// The settings of the scene: what changes, changes at once.
 pub fn show(viewer: &mut Viewer, ui: &mut Ui) {
@@ -13,6 +13,7 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui) {
     let settings = &mut scene.settings;
     Grid::new("settings").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
         metric(ui, &mut settings.metric);
+        pairs(ui, settings);
         morph(ui, settings);
         numbers(ui, settings);
         limits(ui, settings);
@@ -169,6 +170,18 @@ fn metric(ui: &mut Ui, metric: &mut Metric) {
             ui.end_row();
         }
     }
+}
+
+fn pairs(ui: &mut Ui, settings: &mut Settings) {
+    name(
+        ui,
+        "pairs",
+        "two leaves drawn as one triangle: where they must be, beside larger ones, or also where the threshold is kept so",
+    );
+    let mut is_on = settings.pairs == Pairs::Wished;
+    ui.checkbox(&mut is_on, "where the threshold allows");
+    settings.pairs = if is_on { Pairs::Wished } else { Pairs::Forced };
+    ui.end_row();
 }
 
 /// Only metrics that halve from level to level have it; with another it goes out.

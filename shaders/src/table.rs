@@ -108,6 +108,11 @@ pub const FILES: &[(&str, &str)] = &[
     ("passes/flag.wgsl", include_str!("../passes/flag.wgsl")),
     ("passes/measure.wgsl", include_str!("../passes/measure.wgsl")),
     ("passes/pose.wgsl", include_str!("../passes/pose.wgsl")),
+    ("passes/pose_points.wgsl", include_str!("../passes/pose_points.wgsl")),
+    (
+        "passes/pose_triangles.wgsl",
+        include_str!("../passes/pose_triangles.wgsl"),
+    ),
     ("passes/rebuild.wgsl", include_str!("../passes/rebuild.wgsl")),
     ("passes/update.wgsl", include_str!("../passes/update.wgsl")),
     ("shared/balance.wgsl", include_str!("../shared/balance.wgsl")),
@@ -209,6 +214,19 @@ pub const FILES: &[(&str, &str)] = &[
     ("shared/patch_power.wgsl", include_str!("../shared/patch_power.wgsl")),
     ("shared/place.wgsl", include_str!("../shared/place.wgsl")),
     ("shared/polygon.wgsl", include_str!("../shared/polygon.wgsl")),
+    (
+        "shared/pose_butterfly.wgsl",
+        include_str!("../shared/pose_butterfly.wgsl"),
+    ),
+    ("shared/pose_limit.wgsl", include_str!("../shared/pose_limit.wgsl")),
+    (
+        "shared/pose_point_normal.wgsl",
+        include_str!("../shared/pose_point_normal.wgsl"),
+    ),
+    (
+        "shared/pose_quadratic.wgsl",
+        include_str!("../shared/pose_quadratic.wgsl"),
+    ),
     ("shared/pose_square.wgsl", include_str!("../shared/pose_square.wgsl")),
     (
         "shared/pose_triangle.wgsl",

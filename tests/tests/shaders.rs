@@ -4,6 +4,7 @@ use keyleaf::draw::Sky;
 use keyleaf::inspect::Inspector;
 use keyleaf::map::MapPipeline;
 use keyleaf::shading::{Atmosphere, Channel, Material, Overlay, Tint};
+use keyleaf::surface::PoseShader;
 use keyleaf::{BackFaces, Balance, Kind, Morph, modules};
 use keyleaf_shaders::{FILES, compose, dependencies, label, located, source};
 use naga::valid::{Capabilities, ValidationFlags, Validator};
@@ -59,8 +60,11 @@ pub fn kinds() -> Vec<Kind> {
         );
     }
     for (surface, pose) in [
-        ("surfaces/catmull_clark.wgsl", "shared/pose_square.wgsl"),
-        ("surfaces/loop.wgsl", "shared/pose_triangle.wgsl"),
+        ("surfaces/catmull_clark.wgsl", PoseShader::CATMULL_CLARK),
+        ("surfaces/loop.wgsl", PoseShader::LOOP),
+        ("surfaces/qas.wgsl", PoseShader::QAS_LIMIT),
+        ("surfaces/qas.wgsl", PoseShader::QAS_BUTTERFLY),
+        ("surfaces/pn.wgsl", PoseShader::POINT_NORMAL),
     ] {
         kinds.push(Kind {
             surface,

@@ -49,6 +49,7 @@ mod metric;
 mod noise;
 mod patches;
 mod polygon_mesh;
+mod pose;
 mod quad_coord;
 mod quadratic;
 mod root_bound;
@@ -73,10 +74,11 @@ pub use patches::{
     Unjoined,
 };
 pub use polygon_mesh::{CornerAttributes, Faces, PolygonMesh};
+pub use pose::{PoseDispatch, PoseShader, PoseTables};
 pub use quadratic::{CornerNormals, LimitSample, LimitSamples, LoopWeights, TrianglePatchError, TrianglePatches};
 pub use subdivision::{
     BoundaryRule, ControlMesh, Corner, Crease, Creasing, INFINITE_SHARPNESS, Subdivision, SubdivisionError,
     SubdivisionScheme, SubdivisionSettings,
 };
-pub use surface::{OwnCoord, PoseTables, Surface, SurfaceBound, SurfaceFrame, SurfaceTables, TextureData};
+pub use surface::{OwnCoord, Surface, SurfaceBound, SurfaceFrame, SurfaceTables, TextureData};
 pub use terrain::{Terrain, TerrainSettings};

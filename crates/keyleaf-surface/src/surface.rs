@@ -1,6 +1,6 @@
 //! What every surface answers, and what the GPU reads of it.
 
-use crate::{ParameterError, Patches, coordinate};
+use crate::{ParameterError, Patches, PoseShader, PoseTables, coordinate};
 use glam::DVec3;
 use keyleaf_key::{Place, RootPoint, Topology};
 use std::sync::Arc;
@@ -41,12 +41,12 @@ pub trait Surface: Send + Sync {
     /// What the GPU reads, for positions relative to `origin` (object space).
     fn tables(&self, origin: DVec3) -> SurfaceTables;
 
-    /// The WGSL file by which the GPU poses the surface when its control mesh moves; none where the tables are made anew for each pose.
-    fn pose_shader(&self) -> Option<&'static str> {
+    /// The WGSL by which the GPU poses the surface when its control mesh moves; none where the tables are made anew for each pose.
+    fn pose_shader(&self) -> Option<PoseShader> {
         None
     }
 
-    /// What it reads besides for that.
+    /// What it reads besides for that; some where there is a shader.
     fn pose_tables(&self) -> Option<PoseTables> {
         None
     }
@@ -157,21 +157,6 @@ pub struct SurfaceTables {
     pub heights: Option<Arc<TextureData>>,
     /// The texture `height_bounds`, RGBA32Float with mip levels. Shared likewise.
     pub height_bounds: Option<Arc<TextureData>>,
-}
-
-/// What the pass `pose` reads of a surface whose control points are weighted sums of the vertices of a control mesh.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PoseTables {
-    /// The uniform `pose`.
-    pub params: Vec<u8>,
-    /// The storage buffer `pose_words`.
-    pub words: Vec<u32>,
-    /// The storage buffer `pose_rows`: weights.
-    pub rows: Vec<f32>,
-    /// Floats of the storage buffer `scratch`.
-    pub scratch: usize,
-    /// Vertices of the control mesh.
-    pub vertices: usize,
 }
 
 /// The texels of a two-dimensional texture of 32-bit floats.

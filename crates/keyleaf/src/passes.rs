@@ -5,6 +5,7 @@ use crate::binding::{self, Binding};
 use crate::module::shader_module;
 use crate::settings::{BackFaces, Balance, Morph};
 use crate::surface_buffers::surface_layout;
+use keyleaf_surface::PoseShader;
 
 use Binding::{Absent, Read, Uniform, Write};
 
@@ -23,8 +24,8 @@ pub struct Kind {
     pub morph: Morph,
     /// WGSL file of the size of a pair, where pairs may be wished.
     pub pair_metric: Option<&'static str>,
-    /// WGSL file by which a moving surface is posed.
-    pub pose: Option<&'static str>,
+    /// What poses a moving surface.
+    pub pose: Option<PoseShader>,
 }
 
 impl Kind {
@@ -158,9 +159,8 @@ pub fn modules(kind: &Kind) -> Vec<Module> {
         let files = &["passes/cull_faces.wgsl", culling, kind.surface];
         all.push(module("cull", files, CULL, true, &["cull_faces"]));
     }
-    if let Some(patches) = kind.pose {
-        let files = &["passes/pose.wgsl", patches];
-        all.push(module("pose", files, POSE, false, &["pose_faces", "pose_edges"]));
+    if let Some(pose) = kind.pose {
+        all.push(module("pose", pose.files, POSE, false, pose.entries));
     }
     if kind.balance == Balance::Table {
         all.push(module(

@@ -1,4 +1,5 @@
-//! A surface whose control mesh moves: the buffers of `shaders/passes/pose.wgsl`, and when it has to run.
+//! A surface whose control mesh moves: the buffers of its module `pose` (such as
+//! `shaders/passes/pose.wgsl`), and when that has to run.
 
 use crate::KeyleafError;
 use crate::binding;
@@ -6,16 +7,23 @@ use crate::layout;
 use crate::passes::{Passes, Stage};
 use crate::surface_buffers::{SurfaceBuffers, buffer};
 use glam::DVec3;
-use keyleaf_surface::Surface;
+use keyleaf_surface::{PoseDispatch, Surface};
 
-/// Where the control mesh is, and what finds the control points of the surface from it.
+fn groups(dispatch: &PoseDispatch) -> [u32; 3] {
+    match *dispatch {
+        PoseDispatch::Groups(groups) => layout::groups_for(groups, 1),
+        PoseDispatch::Invocations(invocations) => layout::groups_for(invocations, layout::GROUP_SIZE),
+    }
+}
+
+/// Where the control mesh is, and what finds the tables of the surface from it.
 pub(crate) struct Posing {
     group: wgpu::BindGroup,
     cage: wgpu::Buffer,
     bytes: u64,
     vertices: usize,
-    faces: u32,
-    half_edges: u32,
+    /// Workgroups of each entry point.
+    dispatches: Vec<[u32; 3]>,
     /// None while the mesh is at rest, as the tables of the surface have it.
     positions: Option<Vec<DVec3>>,
     /// The origin that the cage on the GPU is relative to, if it is there.
@@ -76,8 +84,7 @@ impl Posing {
             bytes: own.iter().map(|buffer| buffer.size()).sum(),
             cage,
             vertices: pose.vertices,
-            faces: surface.topology().face_count(),
-            half_edges: surface.topology().half_edge_count(),
+            dispatches: pose.dispatches.iter().map(groups).collect(),
             positions: None,
             origin: None,
             is_due: false,
@@ -126,12 +133,8 @@ impl Posing {
         if !std::mem::take(&mut self.is_due) {
             return;
         }
-        let groups = [
-            layout::groups_for(self.faces, 1),
-            layout::groups_for(self.half_edges, layout::GROUP_SIZE),
-        ];
         pass.set_bind_group(0, &self.group, &[]);
-        for (pipeline, [x, y, z]) in stage.pipelines.iter().zip(groups) {
+        for (pipeline, &[x, y, z]) in stage.pipelines.iter().zip(&self.dispatches) {
             pass.set_pipeline(pipeline);
             pass.dispatch_workgroups(x, y, z);
         }

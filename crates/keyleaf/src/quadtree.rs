@@ -13,7 +13,7 @@
 //! # Practice: one pass
 //! | dispatch | invocations | does |
 //! |---|---|---|
-//! | `pose_faces`, `pose_edges` | faces, half-edges | only where the control mesh has moved: control points, bounds |
+//! | `pose_…` | vertices, faces, edges | only where the control mesh has moved: control points, normals, bounds |
 //! | `measure_all` | leaves | only after that, or when the origin has moved: asks the surface about all leaves |
 //! | `decide_splits` | leaves that want to split | what was published → change records, requests |
 //! | `decide_merges` | leaves with a satisfied parent | what was published → change records |
@@ -227,7 +227,7 @@ impl Quadtree {
     pub fn set_cage(&mut self, positions: Vec<DVec3>) -> Result<(), KeyleafError> {
         let Some(posing) = &mut self.posing else {
             return Err(KeyleafError::Cage(
-                "it was made without Settings::moving, or is no subdivision surface".to_owned(),
+                "it was made without Settings::moving, or does not follow from its control mesh on the GPU".to_owned(),
             ));
         };
         posing.set(positions)

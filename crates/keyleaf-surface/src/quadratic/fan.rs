@@ -90,6 +90,15 @@ fn next(half_edge: HalfEdge) -> HalfEdge {
     }
 }
 
+/// The mean of the unit normals of triangles.
+pub fn mean_of_faces(topology: &Topology, positions: &[DVec3], faces: impl Iterator<Item = u32>) -> DVec3 {
+    let normals = faces.filter_map(|face| {
+        let [p, q, r] = [0, 1, 2].map(|corner| positions[topology.vertex(face, corner) as usize]);
+        cross_direction(q - p, r - p)
+    });
+    unit_or_up(normals.sum())
+}
+
 /// The direction of the sum of a × b / |a × b|, weighted by the angles between a and b. Of unit length always.
 pub fn angle_weighted(sectors: impl Iterator<Item = [DVec3; 2]>) -> DVec3 {
     let sum = sectors

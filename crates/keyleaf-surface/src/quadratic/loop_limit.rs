@@ -6,7 +6,8 @@
 //! another eigenvalue is at least 1/2, so that there is no tangent plane.
 
 use super::error::TrianglePatchError;
-use super::fan::Fan;
+use super::fan::{Fan, mean_of_faces};
+use super::mask::{Gatherer, Mask, Masked, Weights, edges, sides};
 use super::samples::{LimitSample, LimitSamples};
 use crate::direction::cross_direction;
 use crate::{BoundaryRule, ControlMesh};
@@ -44,28 +45,8 @@ impl LoopWeights {
     }
 }
 
-/// Where the masks change.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Rule {
-    Interior,
-    Boundary,
-    /// The vertex stays.
-    Sharp,
-}
-
-/// A fan with its neighbours and its rule.
-struct Vertex {
-    fan: Fan,
-    ring: Vec<u32>,
-    rule: Rule,
-}
-
-/// The samples of a mesh of triangles.
-pub fn samples(
-    topology: &Topology,
-    control: &ControlMesh,
-    weights: LoopWeights,
-) -> Result<LimitSamples, TrianglePatchError> {
+/// An error unless the masks are those of the mesh.
+pub fn check(control: &ControlMesh) -> Result<(), TrianglePatchError> {
     let is_sharp = control.creases.iter().any(|crease| crease.sharpness > 0.0)
         || control.corners.iter().any(|corner| corner.sharpness > 0.0);
     if is_sharp {
@@ -74,175 +55,201 @@ pub fn samples(
     if control.boundary == BoundaryRule::None {
         return Err(TrianglePatchError::NoBoundary);
     }
-    let vertices = vertices(topology, control.boundary);
-    let positions = &control.mesh.positions;
-    let step = Step::new(topology, positions, &vertices, weights);
+    Ok(())
+}
+
+/// The rules of a mesh without sharpness.
+#[derive(Clone, Copy, Debug)]
+pub struct Rules {
+    pub boundary: BoundaryRule,
+    pub weights: LoopWeights,
+}
+
+/// The samples of a mesh of triangles.
+pub fn samples(topology: &Topology, positions: &[DVec3], rules: Rules) -> LimitSamples {
+    let fans = Fan::all(topology);
+    let mut masks = LoopMasks::new(topology, &fans, rules);
     let none = LimitSample {
         position: DVec3::ZERO,
         normal: DVec3::Y,
     };
     let mut samples = LimitSamples {
         corners: vec![none; topology.half_edge_count() as usize],
-        edges: topology.roots().map(|root| step.edge(root.face, root.root)).collect(),
+        edges: vec![none; topology.half_edge_count() as usize],
     };
-    for vertex in &vertices {
-        let sample = corner(topology, positions, vertex, weights);
-        for spoke in &vertex.fan.spokes {
+    for fan in &fans {
+        let masked = masks.vertex(fan.vertex(topology)).apply(positions);
+        let sample = sample(masked, || fan.mean_normal(topology, positions));
+        for spoke in &fan.spokes {
             samples.corners[topology.half_edge_index(spoke.face, spoke.root) as usize] = sample;
         }
     }
-    Ok(samples)
-}
-
-fn vertices(topology: &Topology, boundary: BoundaryRule) -> Vec<Vertex> {
-    let fans = Fan::all(topology);
-    let mut fans_of = vec![0; topology.vertex_count()];
-    fans.iter().for_each(|fan| fans_of[fan.vertex(topology) as usize] += 1);
-    let rule = |fan: &Fan| {
-        let is_corner = !fan.closed && fan.spokes.len() == 1 && boundary == BoundaryRule::EdgesAndCorners;
-        match fan.closed {
-            _ if is_corner || fans_of[fan.vertex(topology) as usize] > 1 => Rule::Sharp,
-            true => Rule::Interior,
-            false => Rule::Boundary,
-        }
-    };
-    fans.into_iter()
-        .map(|fan| Vertex {
-            ring: fan.ring(topology),
-            rule: rule(&fan),
-            fan,
-        })
-        .collect()
-}
-
-/// A vertex of the mesh on the limit surface.
-fn corner(topology: &Topology, positions: &[DVec3], vertex: &Vertex, weights: LoopWeights) -> LimitSample {
-    let own = positions[vertex.fan.vertex(topology) as usize];
-    let ring: Vec<DVec3> = vertex.ring.iter().map(|&end| positions[end as usize]).collect();
-    let fallback = || vertex.fan.mean_normal(topology, positions);
-    match vertex.rule {
-        Rule::Interior => interior(own, &ring, weights.chi(ring.len()), fallback),
-        Rule::Boundary => on_boundary(own, &ring, fallback),
-        Rule::Sharp => LimitSample {
-            position: own,
-            normal: fallback(),
-        },
-    }
-}
-
-fn interior(own: DVec3, ring: &[DVec3], chi: f64, fallback: impl FnOnce() -> DVec3) -> LimitSample {
-    let n = ring.len() as f64;
-    let edges = || ring.iter().map(|&end| end - own);
-    let sum: DVec3 = edges().sum();
-    let tangent = |wave: fn(f64) -> f64| -> DVec3 {
-        let weight = |i: usize| wave(TAU * i as f64 / n);
-        edges().enumerate().map(|(i, edge)| edge * weight(i)).sum()
-    };
-    LimitSample {
-        position: own + sum * chi,
-        normal: cross_direction(tangent(f64::cos), tangent(f64::sin)).unwrap_or_else(fallback),
-    }
-}
-
-fn on_boundary(own: DVec3, ring: &[DVec3], fallback: impl FnOnce() -> DVec3) -> LimitSample {
-    let edges: Vec<DVec3> = ring.iter().map(|&end| end - own).collect();
-    let (first, last) = (edges[0], edges[edges.len() - 1]);
-    let normal = (edges.len() < EDGES_WITHOUT_TANGENTS)
-        .then(|| cross_direction(first - last, across_boundary(&edges)))
-        .flatten();
-    LimitSample {
-        position: own + (first + last) / 6.0,
-        normal: normal.unwrap_or_else(fallback),
-    }
-}
-
-/// The tangent across the boundary, of edges relative to the vertex. The weights of a mask sum to zero, so that the vertex drops out.
-fn across_boundary(edges: &[DVec3]) -> DVec3 {
-    let k = edges.len();
-    let ends = edges[0] + edges[k - 1];
-    match k {
-        2 => ends,
-        3 => edges[1],
-        _ => {
-            let angle = PI / (k - 1) as f64;
-            let d = 1.0 + 2.0 * angle.cos();
-            let inner: DVec3 = (1..k - 1).map(|i| edges[i] * (i as f64 * angle).sin()).sum();
-            inner - ends * (angle.cos() / ((angle / 2.0).tan() * d))
+    for owner in edges(topology) {
+        let masked = masks.edge(owner).apply(positions);
+        let faces = sides(topology, owner).map(|side| side.face);
+        let sample = sample(masked, || mean_of_faces(topology, positions, faces));
+        for side in sides(topology, owner) {
+            samples.edges[topology.half_edge_index(side.face, side.root) as usize] = sample;
         }
     }
+    samples
 }
 
-/// The mesh after one step of subdivision.
-struct Step<'a> {
+fn sample(masked: Masked, fallback: impl FnOnce() -> DVec3) -> LimitSample {
+    let [along, across] = masked.tangents;
+    LimitSample {
+        position: masked.position,
+        normal: cross_direction(along, across).unwrap_or_else(fallback),
+    }
+}
+
+/// A vertex that moves when the mesh is subdivided.
+#[derive(Clone, Debug)]
+enum Vertex {
+    Interior(Vec<u32>),
+    Boundary(Vec<u32>),
+    /// It stays: a corner, and where triangles touch in a point only.
+    Sharp,
+}
+
+/// The masks of a mesh.
+pub struct LoopMasks<'a> {
     topology: &'a Topology,
-    /// By vertex.
-    vertices: Vec<DVec3>,
-    /// By half-edge: its middle.
-    edges: Vec<DVec3>,
+    weights: LoopWeights,
+    vertices: Vec<Vertex>,
+    gatherer: Gatherer,
 }
 
-impl<'a> Step<'a> {
-    fn new(topology: &'a Topology, positions: &[DVec3], vertices: &[Vertex], weights: LoopWeights) -> Self {
-        let mut moved = positions.to_vec();
-        for vertex in vertices {
-            let index = vertex.fan.vertex(topology) as usize;
-            let (own, ends) = (positions[index], || {
-                vertex.ring.iter().map(|&end| positions[end as usize])
-            });
-            match vertex.rule {
-                Rule::Interior => {
-                    let sum: DVec3 = ends().map(|end| end - own).sum();
-                    moved[index] = own + sum * weights.beta(vertex.ring.len());
-                }
-                Rule::Boundary => {
-                    let [first, last] = [0, vertex.ring.len() - 1].map(|i| positions[vertex.ring[i] as usize]);
-                    moved[index] = own * 0.75 + (first + last) / 8.0;
-                }
-                Rule::Sharp => {}
-            }
+impl<'a> LoopMasks<'a> {
+    pub fn new(topology: &'a Topology, fans: &[Fan], rules: Rules) -> Self {
+        let mut fans_of = vec![0; topology.vertex_count()];
+        fans.iter().for_each(|fan| fans_of[fan.vertex(topology) as usize] += 1);
+        let mut vertices = vec![Vertex::Sharp; topology.vertex_count()];
+        for fan in fans {
+            let vertex = fan.vertex(topology) as usize;
+            let is_corner = fan.spokes.len() == 1 && rules.boundary == BoundaryRule::EdgesAndCorners;
+            vertices[vertex] = match fan.closed {
+                _ if fans_of[vertex] > 1 => Vertex::Sharp,
+                true => Vertex::Interior(fan.ring(topology)),
+                false if is_corner => Vertex::Sharp,
+                false => Vertex::Boundary(fan.ring(topology)),
+            };
         }
-        let at = |face, corner: u32| positions[topology.vertex(face, corner % 3) as usize];
-        let middle = |root: keyleaf_key::Place| {
-            let HalfEdge { face, root } = topology.half_edge_owner(root.face, root.root);
-            let ends = at(face, root) + at(face, root + 1);
-            match topology.twin(face, root) {
-                Some(twin) => ends * 0.375 + (at(face, root + 2) + at(twin.face, twin.root + 2)) / 8.0,
-                None => ends / 2.0,
-            }
-        };
         Self {
             topology,
-            vertices: moved,
-            edges: topology.roots().map(middle).collect(),
+            weights: rules.weights,
+            vertices,
+            gatherer: Gatherer::new(topology.vertex_count()),
         }
     }
 
-    fn vertex(&self, face: u32, corner: u32) -> DVec3 {
-        self.vertices[self.topology.vertex(face, corner % 3) as usize]
+    /// A vertex on the limit surface.
+    pub fn vertex(&self, vertex: u32) -> Mask {
+        let (ring, weights) = match &self.vertices[vertex as usize] {
+            Vertex::Interior(ring) => (ring, interior(ring.len(), self.weights.chi(ring.len()))),
+            Vertex::Boundary(ring) => (ring, on_boundary(ring.len())),
+            Vertex::Sharp => return Mask::vertex(vertex),
+        };
+        Mask {
+            centre: vertex,
+            terms: ring.iter().copied().zip(weights).collect(),
+        }
     }
 
-    fn middle(&self, face: u32, corner: u32) -> DVec3 {
-        self.edges[self.topology.half_edge_index(face, corner % 3) as usize]
+    /// The middle of an edge on the limit surface, as its owner sees it: relative to the start of that. After one step of subdivision it
+    /// has 6 edges, or 4 on a boundary.
+    pub fn edge(&mut self, HalfEdge { face, root }: HalfEdge) -> Mask {
+        let twin = self.topology.twin(face, root);
+        let ring = if twin.is_some() {
+            interior(6, 1.0 / 12.0)
+        } else {
+            on_boundary(4)
+        };
+        let others: Weights = std::array::from_fn(|k| ring.iter().map(|weights| weights[k]).sum());
+        let mut terms = Vec::new();
+        self.add_middle(&mut terms, face, root, [1.0 - others[0], -others[1], -others[2]]);
+        self.add_middle(&mut terms, face, root + 1, ring[1]);
+        self.add_middle(&mut terms, face, root + 2, ring[2]);
+        if let Some(twin) = twin {
+            self.add_middle(&mut terms, twin.face, twin.root + 1, ring[4]);
+            self.add_middle(&mut terms, twin.face, twin.root + 2, ring[5]);
+        }
+        // What differs most between neighbourhoods comes last.
+        self.add_vertex(&mut terms, self.at(face, root + 1), ring[0]);
+        self.add_vertex(&mut terms, self.at(face, root), ring[3]);
+        self.gatherer.gather(self.topology.vertex(face, root), &terms)
     }
 
-    /// The middle of a half-edge on the limit surface, as its owner sees it. After one step it has 6 edges, or 4 on a boundary.
-    fn edge(&self, face: u32, root: u32) -> LimitSample {
-        let HalfEdge { face, root } = self.topology.half_edge_owner(face, root);
-        let own = self.middle(face, root);
-        let mut ring = vec![
-            self.vertex(face, root + 1),
-            self.middle(face, root + 1),
-            self.middle(face, root + 2),
-            self.vertex(face, root),
-        ];
-        let corners = [0, 1, 2].map(|corner| self.vertex(face, root + corner));
-        let fallback = || super::fan::angle_weighted([[corners[1] - corners[0], corners[2] - corners[0]]].into_iter());
+    fn at(&self, face: u32, corner: u32) -> u32 {
+        self.topology.vertex(face, corner % 3)
+    }
+
+    /// The middle of a half-edge after one step.
+    fn add_middle(&self, terms: &mut Vec<(u32, Weights)>, face: u32, root: u32, weights: Weights) {
+        let HalfEdge { face, root } = self.topology.half_edge_owner(face, root % 3);
+        let ends = [0, 1].map(|step| self.at(face, root + step));
         match self.topology.twin(face, root) {
             Some(twin) => {
-                ring.extend([1, 2].map(|step| self.middle(twin.face, twin.root + step)));
-                interior(own, &ring, 1.0 / 12.0, fallback)
+                let opposite = [self.at(face, root + 2), self.at(twin.face, twin.root + 2)];
+                terms.extend(ends.map(|end| (end, times(weights, 0.375))));
+                terms.extend(opposite.map(|opposite| (opposite, times(weights, 0.125))));
             }
-            None => on_boundary(own, &ring, fallback),
+            None => terms.extend(ends.map(|end| (end, times(weights, 0.5)))),
+        }
+    }
+
+    /// A vertex after one step.
+    fn add_vertex(&self, terms: &mut Vec<(u32, Weights)>, vertex: u32, weights: Weights) {
+        match &self.vertices[vertex as usize] {
+            Vertex::Interior(ring) => {
+                let beta = self.weights.beta(ring.len());
+                terms.push((vertex, times(weights, 1.0 - ring.len() as f64 * beta)));
+                terms.extend(ring.iter().map(|&end| (end, times(weights, beta))));
+            }
+            Vertex::Boundary(ring) => {
+                terms.push((vertex, times(weights, 0.75)));
+                terms.extend([0, ring.len() - 1].map(|end| (ring[end], times(weights, 0.125))));
+            }
+            Vertex::Sharp => terms.push((vertex, weights)),
+        }
+    }
+}
+
+fn times(weights: Weights, factor: f64) -> Weights {
+    weights.map(|weight| weight * factor)
+}
+
+/// The weights of the neighbours of a vertex, relative to it.
+fn interior(n: usize, chi: f64) -> Vec<Weights> {
+    let angle = |i: usize| TAU * i as f64 / n as f64;
+    (0..n).map(|i| [chi, angle(i).cos(), angle(i).sin()]).collect()
+}
+
+/// The same on a boundary.
+fn on_boundary(n: usize) -> Vec<Weights> {
+    let mut weights = vec![[0.0; 3]; n];
+    (weights[0][0], weights[n - 1][0]) = (1.0 / 6.0, 1.0 / 6.0);
+    if n < EDGES_WITHOUT_TANGENTS {
+        (weights[0][1], weights[n - 1][1]) = (1.0, -1.0);
+        (0..n).for_each(|i| weights[i][2] = across_boundary(n, i));
+    }
+    weights
+}
+
+/// The weight of neighbour i of n in the tangent across the boundary. Those of a mask sum to zero, so that the vertex drops out.
+fn across_boundary(n: usize, i: usize) -> f64 {
+    let is_end = i == 0 || i == n - 1;
+    match n {
+        2 => 1.0,
+        3 => f64::from(u8::from(!is_end)),
+        _ => {
+            let angle = PI / (n - 1) as f64;
+            let d = 1.0 + 2.0 * angle.cos();
+            if is_end {
+                -angle.cos() / ((angle / 2.0).tan() * d)
+            } else {
+                (i as f64 * angle).sin()
+            }
         }
     }
 }

@@ -19,16 +19,22 @@
 //! | `net` | Bézier triangles in polar form: points, derivatives, hulls |
 //! | `fan` | the triangles about a vertex |
 //! | `samples`, `loop_limit`, `butterfly` | what quadratic patches interpolate |
+//! | `mask` | what of that is a weighted sum of vertices |
 //! | `point_normal` | the patches of PN triangles |
+//! | `recipe` | how all of it follows from the vertices |
 //! | `bound`, `tables` | bounds, and what the GPU reads |
+//! | `pose` | what it reads to move |
 
 mod bound;
 mod butterfly;
 mod error;
 mod fan;
 mod loop_limit;
+mod mask;
 mod net;
 mod point_normal;
+mod pose;
+mod recipe;
 mod samples;
 mod tables;
 
@@ -40,10 +46,14 @@ pub use samples::{LimitSample, LimitSamples};
 use crate::direction::{cross_direction, frame_normal};
 use crate::mesh::unit_or_up;
 use crate::root_bound::RootBound;
-use crate::{ControlMesh, PolygonMesh, Surface, SurfaceBound, SurfaceFrame, SurfaceTables, diamond};
+use crate::{
+    ControlMesh, PolygonMesh, PoseShader, PoseTables, Surface, SurfaceBound, SurfaceFrame, SurfaceTables, diamond,
+};
 use glam::DVec3;
 use keyleaf_key::{HalfEdge, ONE, Place, RootPoint, Site, Topology};
-use net::{Barycentric, PositionNet, QuadraticNet, edge_control};
+use loop_limit::Rules;
+use net::{Barycentric, PositionNet, QuadraticNet};
+use recipe::Recipe;
 
 /// The face's parameters u and v as directions: from corner 0 to corner 1, and to corner 2.
 const DU: Barycentric = [-1.0, 1.0, 0.0];
@@ -83,6 +93,11 @@ pub struct TrianglePatches {
     mean_normals: Vec<DVec3>,
     /// By half-edge.
     bounds: Vec<RootBound>,
+    /// A box of all control points.
+    extent: (DVec3, DVec3),
+    /// The vertices of the control mesh; none where it was made of samples.
+    cage: Vec<DVec3>,
+    recipe: Recipe,
 }
 
 impl TrianglePatches {
@@ -93,22 +108,8 @@ impl TrianglePatches {
     pub fn quadratic(topology: &Topology, samples: &LimitSamples) -> Result<Self, TrianglePatchError> {
         error::check_triangles(topology)?;
         samples.check(topology)?;
-        let index = |half_edge: HalfEdge| topology.half_edge_index(half_edge.face, half_edge.root) as usize;
-        let nets = (0..topology.face_count()).map(|face| {
-            let own = [0, 1, 2].map(|root| index(HalfEdge { face, root }));
-            let corners = [0, 1, 2].map(|root| samples.corners[index(corner_owner(topology, face, root))].position);
-            let middles = [0, 1, 2].map(|root| samples.edges[index(topology.half_edge_owner(face, root))].position);
-            let net = |corners: [DVec3; 3], middles: [DVec3; 3]| QuadraticNet {
-                corners,
-                edges: [0, 1, 2].map(|r| edge_control(middles[r], corners[r], corners[(r + 1) % 3])),
-            };
-            let normals = net(
-                own.map(|i| samples.corners[i].normal),
-                own.map(|i| samples.edges[i].normal),
-            );
-            (PositionNet::Quadratic(net(corners, middles)), normals)
-        });
-        Ok(Self::of_nets(topology.clone(), nets.collect()))
+        let nets = recipe::quadratic_nets(topology, samples);
+        Ok(Self::of_nets(topology.clone(), nets, Vec::new(), Recipe::Samples))
     }
 
     /// QAS of the Loop surface of a mesh without sharp edges and vertices: [`LimitSamples::of_loop`].
@@ -116,8 +117,14 @@ impl TrianglePatches {
     /// # Errors
     /// [`TrianglePatchError`] if the mesh is no surface of triangles, has sharpness, or its faces at the boundary have no surface.
     pub fn of_loop(control: &ControlMesh, weights: LoopWeights) -> Result<Self, TrianglePatchError> {
-        let samples = LimitSamples::of_loop(control, weights)?;
-        Self::quadratic(&samples::triangles(&control.mesh)?, &samples)
+        let topology = samples::triangles(&control.mesh)?;
+        loop_limit::check(control)?;
+        let boundary = control.boundary;
+        Self::of_recipe(
+            topology,
+            &control.mesh.positions,
+            Recipe::Limit(Rules { boundary, weights }),
+        )
     }
 
     /// QAS through the vertices of a mesh: [`LimitSamples::of_butterfly`].
@@ -125,7 +132,7 @@ impl TrianglePatches {
     /// # Errors
     /// [`TrianglePatchError`] if the mesh is no surface of triangles.
     pub fn butterfly(mesh: &PolygonMesh) -> Result<Self, TrianglePatchError> {
-        Self::quadratic(&samples::triangles(mesh)?, &LimitSamples::of_butterfly(mesh)?)
+        Self::of_recipe(samples::triangles(mesh)?, &mesh.positions, Recipe::Butterfly)
     }
 
     /// PN triangles of a mesh. Where normals differ on both sides of an edge, the edge is the mean of what both say.
@@ -134,26 +141,58 @@ impl TrianglePatches {
     /// [`TrianglePatchError`] if the mesh is no surface of triangles, or normals are to come from the mesh and are absent or not finite.
     pub fn point_normal(mesh: &PolygonMesh, normals: CornerNormals) -> Result<Self, TrianglePatchError> {
         let topology = samples::triangles(mesh)?;
-        let nets = point_normal::nets(&topology, mesh, normals)?;
-        let nets = nets
-            .into_iter()
-            .map(|(positions, normals)| (PositionNet::Cubic(positions), normals));
-        Ok(Self::of_nets(topology, nets.collect()))
+        let given = point_normal::given_normals(&topology, mesh, normals)?;
+        Self::of_recipe(topology, &mesh.positions, Recipe::PointNormal(given.into()))
     }
 
-    fn of_nets(topology: Topology, nets: Vec<(PositionNet, QuadraticNet)>) -> Self {
+    /// The surface with the vertices of its control mesh elsewhere; `None` if it was made of samples, there are not as many vertices, or one
+    /// is not finite. Normals that were given at the corners stay.
+    pub fn posed(&self, positions: &[DVec3]) -> Option<Self> {
+        let fits = positions.len() == self.cage.len() && positions.iter().all(|p| p.is_finite());
+        let made = fits.then(|| Self::of_recipe(self.topology.clone(), positions, self.recipe.clone()));
+        let mut posed = made?.ok()?;
+        posed.allow_for(std::slice::from_ref(self));
+        Some(posed)
+    }
+
+    /// Makes the box that of this surface and of others, which are this one posed: what does not change while the control mesh moves.
+    pub fn allow_for(&mut self, others: &[Self]) {
+        for other in others {
+            self.extent = (self.extent.0.min(other.extent.0), self.extent.1.max(other.extent.1));
+        }
+    }
+
+    /// The vertices of the control mesh; none if the surface was made of samples.
+    pub fn control_positions(&self) -> &[DVec3] {
+        &self.cage
+    }
+
+    fn of_recipe(topology: Topology, positions: &[DVec3], recipe: Recipe) -> Result<Self, TrianglePatchError> {
+        let nets = recipe.nets(&topology, positions)?;
+        Ok(Self::of_nets(topology, nets, positions.to_vec(), recipe))
+    }
+
+    fn of_nets(topology: Topology, nets: Vec<(PositionNet, QuadraticNet)>, cage: Vec<DVec3>, recipe: Recipe) -> Self {
         let mean_normals = nets
             .iter()
             .map(|(positions, normals)| mean_normal(positions, normals))
             .collect();
         let (positions, normals): (Vec<_>, Vec<_>) = nets.into_iter().unzip();
         let bounds = bound::of_roots(&topology, &positions);
+        let controls = || positions.iter().flat_map(PositionNet::controls);
+        let extent = (
+            controls().fold(DVec3::INFINITY, DVec3::min),
+            controls().fold(DVec3::NEG_INFINITY, DVec3::max),
+        );
         Self {
             topology,
             positions,
             normals,
             mean_normals,
             bounds,
+            extent,
+            cage,
+            recipe,
         }
     }
 
@@ -227,11 +266,7 @@ impl Surface for TrianglePatches {
     }
 
     fn bounding_box(&self) -> (DVec3, DVec3) {
-        let controls = || self.positions.iter().flat_map(PositionNet::controls);
-        (
-            controls().fold(DVec3::INFINITY, DVec3::min),
-            controls().fold(DVec3::NEG_INFINITY, DVec3::max),
-        )
+        self.extent
     }
 
     fn shader(&self) -> &'static str {
@@ -243,5 +278,13 @@ impl Surface for TrianglePatches {
 
     fn tables(&self, origin: DVec3) -> SurfaceTables {
         tables::tables(self, origin)
+    }
+
+    fn pose_shader(&self) -> Option<PoseShader> {
+        self.recipe.pose_shader()
+    }
+
+    fn pose_tables(&self) -> Option<PoseTables> {
+        pose::tables(self)
     }
 }

@@ -18,17 +18,13 @@ pub enum CornerNormals {
     OfMesh,
 }
 
-/// The nets of all faces.
-pub fn nets(
-    topology: &Topology,
-    mesh: &PolygonMesh,
-    normals: CornerNormals,
-) -> Result<Vec<(CubicNet, QuadraticNet)>, TrianglePatchError> {
-    let normals = corner_normals(topology, mesh, normals)?;
+/// The nets of all faces; `given` are the normals of the corners, by half-edge.
+pub fn nets(topology: &Topology, positions: &[DVec3], given: &[Option<DVec3>]) -> Vec<(CubicNet, QuadraticNet)> {
+    let normals = corner_normals(topology, positions, given);
     let at = |face, corner: u32| {
         let corner = corner % 3;
         let index = topology.half_edge_index(face, corner) as usize;
-        (mesh.positions[topology.vertex(face, corner) as usize], normals[index])
+        (positions[topology.vertex(face, corner) as usize], normals[index])
     };
     let edge = |root: Place| edge_controls(topology, at, root);
     let edges: Vec<[DVec3; 2]> = topology.roots().map(edge).collect();
@@ -43,35 +39,41 @@ pub fn nets(
             quadratic(corners),
         )
     };
-    Ok((0..topology.face_count()).map(net).collect())
+    (0..topology.face_count()).map(net).collect()
 }
 
-/// A unit normal a half-edge.
-fn corner_normals(
+/// The unit normals that are given at the corners of a mesh, by half-edge.
+pub fn given_normals(
     topology: &Topology,
     mesh: &PolygonMesh,
     normals: CornerNormals,
-) -> Result<Vec<DVec3>, TrianglePatchError> {
-    let mut means = vec![DVec3::Y; topology.half_edge_count() as usize];
-    for fan in Fan::all(topology) {
-        let mean = fan.mean_normal(topology, &mesh.positions);
-        for spoke in &fan.spokes {
-            means[topology.half_edge_index(spoke.face, spoke.root) as usize] = mean;
-        }
-    }
+) -> Result<Vec<Option<DVec3>>, TrianglePatchError> {
     if normals == CornerNormals::AngleWeighted {
-        return Ok(means);
+        return Ok(vec![None; topology.half_edge_count() as usize]);
     }
     let given = mesh.corners.normals.as_ref().ok_or(TrianglePatchError::NoNormals)?;
-    for ((root, mean), normal) in topology.roots().zip(&mut means).zip(given) {
+    let normal = |(root, normal): (Place, &[f32; 3])| {
         let normal = DVec3::from_array(normal.map(f64::from));
         if !normal.is_finite() {
             let (face, corner) = (root.face, root.root);
             return Err(TrianglePatchError::Normal { face, corner });
         }
-        *mean = normal.try_normalize().unwrap_or(*mean);
+        Ok(normal.try_normalize())
+    };
+    topology.roots().zip(given).map(normal).collect()
+}
+
+/// A unit normal a half-edge: the given one, or that of the faces about the vertex.
+fn corner_normals(topology: &Topology, positions: &[DVec3], given: &[Option<DVec3>]) -> Vec<DVec3> {
+    let mut normals = vec![DVec3::Y; topology.half_edge_count() as usize];
+    for fan in Fan::all(topology) {
+        let mean = fan.mean_normal(topology, positions);
+        for spoke in &fan.spokes {
+            let index = topology.half_edge_index(spoke.face, spoke.root) as usize;
+            normals[index] = given[index].unwrap_or(mean);
+        }
     }
-    Ok(means)
+    normals
 }
 
 /// The control points between the ends of a half-edge. Where the normals on its two sides differ, the mean of what they say, so that

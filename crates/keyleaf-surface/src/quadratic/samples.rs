@@ -2,7 +2,7 @@
 
 use super::butterfly;
 use super::error::{TrianglePatchError, check_triangles};
-use super::loop_limit::{self, LoopWeights};
+use super::loop_limit::{self, LoopWeights, Rules};
 use crate::{ControlMesh, PolygonMesh, SurfaceFrame};
 use glam::DVec3;
 use keyleaf_key::{ONE, RootPoint, Topology};
@@ -61,7 +61,12 @@ impl LimitSamples {
     /// [`TrianglePatchError`] if the mesh is no surface of triangles, has sharpness, or its faces at the boundary have no surface.
     pub fn of_loop(control: &ControlMesh, weights: LoopWeights) -> Result<Self, TrianglePatchError> {
         let topology = triangles(&control.mesh)?;
-        loop_limit::samples(&topology, control, weights)
+        loop_limit::check(control)?;
+        let rules = Rules {
+            boundary: control.boundary,
+            weights,
+        };
+        Ok(loop_limit::samples(&topology, &control.mesh.positions, rules))
     }
 
     /// Of the modified Butterfly scheme, which interpolates the vertices of the mesh: edge middles after one step, normals from the

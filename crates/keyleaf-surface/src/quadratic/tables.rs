@@ -51,10 +51,7 @@ pub fn tables(patches: &TrianglePatches, origin: DVec3) -> SurfaceTables {
     let largest = (low - origin).abs().max((high - origin).abs()).max_element();
     let params = TrianglePatchParams {
         faces: patches.topology.face_count(),
-        entries: match patches.positions.first() {
-            Some(PositionNet::Cubic(_)) => ENTRIES_OF_CUBIC,
-            _ => ENTRIES_OF_QUADRATIC,
-        },
+        entries: entries_of(patches),
         margin: round_up(POSITION_ERROR * largest),
     };
     SurfaceTables {
@@ -63,6 +60,14 @@ pub fn tables(patches: &TrianglePatches, origin: DVec3) -> SurfaceTables {
         b: half_edge_words(patches).collect(),
         heights: None,
         height_bounds: None,
+    }
+}
+
+/// Entries of `surface_a` a face.
+pub fn entries_of(patches: &TrianglePatches) -> u32 {
+    match patches.positions.first() {
+        Some(PositionNet::Cubic(_)) => ENTRIES_OF_CUBIC,
+        _ => ENTRIES_OF_QUADRATIC,
     }
 }
 

@@ -70,7 +70,8 @@ use crate::direction::frame_normal;
 use crate::mesh::unit_or_up;
 use crate::root_bound::RootBound;
 use crate::{
-    ParameterError, PoseTables, SettingError, Surface, SurfaceBound, SurfaceFrame, SurfaceTables, coordinate, diamond,
+    ParameterError, PoseShader, PoseTables, SettingError, Surface, SurfaceBound, SurfaceFrame, SurfaceTables,
+    coordinate, diamond,
 };
 use cage::Cage;
 use cell::DomainPoint;
@@ -408,7 +409,7 @@ impl Surface for Subdivision {
         tables::tables(self, origin)
     }
 
-    fn pose_shader(&self) -> Option<&'static str> {
+    fn pose_shader(&self) -> Option<PoseShader> {
         Some(pose::shader(self.scheme))
     }
 

@@ -13,7 +13,7 @@ use super::bound;
 use super::neighbourhoods::{Kind, Neighbourhoods};
 use super::{Subdivision, SubdivisionScheme};
 use crate::surface::uniform;
-use crate::{PoseTables, Surface};
+use crate::{PoseDispatch, PoseShader, PoseTables, Surface};
 use encase::ShaderType;
 use keyleaf_key::Topology;
 
@@ -34,11 +34,11 @@ struct PoseParams {
     normals: u32,
 }
 
-/// The WGSL file about the patches of a scheme.
-pub fn shader(scheme: SubdivisionScheme) -> &'static str {
+/// The WGSL about the patches of a scheme.
+pub fn shader(scheme: SubdivisionScheme) -> PoseShader {
     match scheme {
-        SubdivisionScheme::CatmullClark => "shared/pose_square.wgsl",
-        SubdivisionScheme::Loop(_) => "shared/pose_triangle.wgsl",
+        SubdivisionScheme::CatmullClark => PoseShader::CATMULL_CLARK,
+        SubdivisionScheme::Loop(_) => PoseShader::LOOP,
     }
 }
 
@@ -79,6 +79,10 @@ pub fn tables(surface: &Subdivision) -> PoseTables {
         rows: kinds.rows,
         scratch: SCRATCH_OF_PATCH * (all.entries / all.control_points) + SCRATCH_OF_HALF_EDGE * half_edges,
         vertices: surface.cage.positions.len(),
+        dispatches: vec![
+            PoseDispatch::Groups(topology.face_count()),
+            PoseDispatch::Invocations(topology.half_edge_count()),
+        ],
     }
 }
 

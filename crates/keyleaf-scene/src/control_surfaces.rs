@@ -34,7 +34,44 @@ pub struct ControlCage {
     /// What its surface is.
     shape: Shape,
     /// The surface at rest, if all poses can be made of it.
-    at_rest: Option<Arc<Subdivision>>,
+    at_rest: Option<AtRest>,
+}
+
+/// A surface that follows from the vertices of its control mesh alone: what it is made of besides is found once.
+#[derive(Debug, Clone)]
+enum AtRest {
+    Subdivision(Arc<Subdivision>),
+    Triangles(Arc<TrianglePatches>),
+}
+
+impl AtRest {
+    fn surface(&self) -> Arc<dyn Surface> {
+        match self {
+            Self::Subdivision(surface) => Arc::clone(surface) as Arc<dyn Surface>,
+            Self::Triangles(surface) => Arc::clone(surface) as Arc<dyn Surface>,
+        }
+    }
+
+    /// None where a pose has no surface.
+    fn posed(&self, positions: &[DVec3]) -> Option<Self> {
+        Some(match self {
+            Self::Subdivision(surface) => Self::Subdivision(Arc::new(surface.posed(positions)?)),
+            Self::Triangles(surface) => Self::Triangles(Arc::new(surface.posed(positions)?)),
+        })
+    }
+
+    /// Lets what does not change with the pose be that of a pose as well.
+    fn allow_for(&mut self, posed: &Self) {
+        match (self, posed) {
+            (Self::Subdivision(rest), Self::Subdivision(posed)) => {
+                Arc::make_mut(rest).allow_for(std::slice::from_ref(posed.as_ref()));
+            }
+            (Self::Triangles(rest), Self::Triangles(posed)) => {
+                Arc::make_mut(rest).allow_for(std::slice::from_ref(posed.as_ref()));
+            }
+            _ => {}
+        }
+    }
 }
 
 /// How many poses of a motion the bounds of what does not change with the pose are taken from.
@@ -65,7 +102,7 @@ impl ControlCage {
     /// [`PoseError`] if vertices or covariances of the pose make up none.
     pub fn surface_at(&self, time: f64) -> Result<Arc<dyn Surface>, PoseError> {
         if let Some(posed) = self.at_rest.as_ref().and_then(|rest| rest.posed(&self.pose(time))) {
-            return Ok(Arc::new(posed));
+            return Ok(posed.surface());
         }
         surface(self, &self.shape, time).map_err(|failure| PoseError {
             time,
@@ -89,22 +126,24 @@ impl ControlCage {
         })
     }
 
-    /// Lets the surface at rest allow for all poses, and returns it as it is at time 0; `None` if it is no subdivision surface.
+    /// Lets the surface at rest allow for all poses, and returns it as it is at time 0; `None` if it does not follow from the vertices alone.
     fn keep_at_rest(&mut self) -> Result<Option<Arc<dyn Surface>>, Failure> {
         let mut control = self.control.clone();
         control.mesh.positions = self.pose(0.0);
-        let Some(mut rest) = subdivision(&control, &self.shape)? else {
+        let Some(mut rest) = at_rest(&control, &self.shape)? else {
             return Ok(None);
         };
         if let Some(motion) = &self.motion {
             let step = motion.duration() / f64::from(POSES);
-            let poses = (0..POSES).map(|pose| motion.pose(f64::from(pose) * step));
-            let posed: Vec<Subdivision> = poses.filter_map(|positions| rest.posed(&positions)).collect();
-            rest.allow_for(&posed);
+            for pose in 0..POSES {
+                if let Some(posed) = rest.posed(&motion.pose(f64::from(pose) * step)) {
+                    rest.allow_for(&posed);
+                }
+            }
         }
-        let rest = Arc::new(rest);
-        self.at_rest = Some(Arc::clone(&rest));
-        Ok(Some(rest))
+        let surface = rest.surface();
+        self.at_rest = Some(rest);
+        Ok(Some(surface))
     }
 
     /// The covariances of its vertices at a time, if they have any.
@@ -300,22 +339,21 @@ fn covariances(
 fn surface(cage: &ControlCage, shape: &Shape, time: f64) -> Result<Arc<dyn Surface>, Failure> {
     let mut control = cage.control.clone();
     control.mesh.positions = cage.pose(time);
+    if let Some(surface) = at_rest(&control, shape)? {
+        return Ok(surface.surface());
+    }
     match shape {
-        Shape::Qas(shape) => qas(&control, shape),
-        Shape::PnTriangles => pn_triangles(&control),
+        Shape::Qas(_) => qas_of_sharp(&control),
         Shape::GaussianProduct(shape) => {
             let covariances = cage.pose_covariances(time).unwrap_or_default();
             gaussian_product(&control, &covariances, shape)
         }
-        shape => match subdivision(&control, shape)? {
-            Some(surface) => Ok(Arc::new(surface)),
-            None => Err(not_yet(shape.name())),
-        },
+        shape => Err(not_yet(shape.name())),
     }
 }
 
-/// The limit surface, if the shape is one.
-fn subdivision(control: &ControlMesh, shape: &Shape) -> Result<Option<Subdivision>, Failure> {
+/// The surface, if it follows from the vertices alone.
+fn at_rest(control: &ControlMesh, shape: &Shape) -> Result<Option<AtRest>, Failure> {
     let (scheme, isolation) = match shape {
         Shape::CatmullClark(shape) => (SubdivisionScheme::CatmullClark, shape.isolation),
         Shape::Loop(shape) => {
@@ -325,22 +363,27 @@ fn subdivision(control: &ControlMesh, shape: &Shape) -> Result<Option<Subdivisio
             };
             (SubdivisionScheme::Loop(weights), shape.isolation)
         }
+        Shape::Qas(shape) => return qas(control, shape),
+        Shape::PnTriangles => return pn_triangles(control).map(Some),
         _ => return Ok(None),
     };
     let settings = SubdivisionSettings { scheme, isolation };
     let surface = Subdivision::new(control, settings).map_err(Failure::of("surface"))?;
-    Ok(Some(surface))
+    Ok(Some(AtRest::Subdivision(Arc::new(surface))))
 }
 
-fn qas(control: &ControlMesh, shape: &QasShape) -> Result<Arc<dyn Surface>, Failure> {
+/// None for the approximation of a Loop surface with creases, which is made of samples.
+fn qas(control: &ControlMesh, shape: &QasShape) -> Result<Option<AtRest>, Failure> {
     let patches = match shape.variant {
         QasVariant::Interpolating => TrianglePatches::butterfly(&control.mesh),
         QasVariant::Approximating if control.creases.is_empty() && control.corners.is_empty() => {
             TrianglePatches::of_loop(control, LoopWeights::Loop)
         }
-        QasVariant::Approximating => return qas_of_sharp(control),
+        QasVariant::Approximating => return Ok(None),
     };
-    Ok(Arc::new(patches.map_err(Failure::of("surface"))?))
+    Ok(Some(AtRest::Triangles(Arc::new(
+        patches.map_err(Failure::of("surface"))?,
+    ))))
 }
 
 /// The approximation of a Loop surface with creases, from samples of it.
@@ -355,13 +398,13 @@ fn qas_of_sharp(control: &ControlMesh) -> Result<Arc<dyn Surface>, Failure> {
     Ok(Arc::new(patches))
 }
 
-fn pn_triangles(control: &ControlMesh) -> Result<Arc<dyn Surface>, Failure> {
+fn pn_triangles(control: &ControlMesh) -> Result<AtRest, Failure> {
     let normals = match control.mesh.corners.normals {
         Some(_) => CornerNormals::OfMesh,
         None => CornerNormals::AngleWeighted,
     };
     let patches = TrianglePatches::point_normal(&control.mesh, normals);
-    Ok(Arc::new(patches.map_err(Failure::of("surface"))?))
+    Ok(AtRest::Triangles(Arc::new(patches.map_err(Failure::of("surface"))?)))
 }
 
 fn gaussian_product(

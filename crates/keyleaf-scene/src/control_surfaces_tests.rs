@@ -90,6 +90,32 @@ fn a_moving_surface_is_made_as_it_is_at_time_zero() {
 }
 
 #[test]
+fn a_surface_that_follows_from_its_vertices_allows_for_all_poses_and_is_made_of_each() {
+    let folder = Folder::new("poses");
+    let motion = "motion: Keys([Group(name: \"all\", vertices: [(0, 3)], \
+        keys: [(time: 0), (time: 1, translation: (0, 0, 3)), (time: 2)])])";
+    for shape in ["Loop()", "Qas()", "Qas(variant: Interpolating)", "PnTriangles"] {
+        let opened = folder.open(&format!("surface: {shape}, {motion}")).unwrap();
+        let rest = &opened.surfaces[0].surface;
+        let posed = opened.surfaces[0].cage.as_ref().unwrap().surface_at(1.0).unwrap();
+        assert!(
+            rest.pose_shader().is_some() && rest.pose_shader() == posed.pose_shader(),
+            "{shape}"
+        );
+        let at = rest.face_coord(1, 0.25, 0.5).unwrap();
+        let moved = posed.point(at) - rest.point(at);
+        assert!((moved - DVec3::new(0.0, 0.0, 3.0)).length() < 1e-9, "{shape}: {moved}");
+        for surface in [rest, &posed] {
+            let (low, high) = surface.bounding_box();
+            assert!(
+                low.z < rest.point(at).z && high.z > posed.point(at).z,
+                "{shape}: {low} {high}"
+            );
+        }
+    }
+}
+
+#[test]
 fn what_the_scene_says_of_sharpness_counts_before_the_file() {
     let folder = Folder::new("sharpness");
     folder.write(

@@ -279,8 +279,8 @@ impl Stage {
         self.show
     }
 
-    /// Puts moving surfaces where they are at a time in seconds; the next update follows. Subdivision surfaces are posed on the GPU, the
-    /// others have their tables made anew.
+    /// Puts moving surfaces where they are at a time in seconds; the next update follows. Most are posed on the GPU; Gaussian products,
+    /// and QAS of Loop surfaces with creases, have their tables made anew.
     ///
     /// # Errors
     /// [`LoadError::Pose`] if the pose of one has no surface.

@@ -44,14 +44,15 @@ impl Posing {
         };
         let limit = device.limits().max_storage_buffer_binding_size;
         for (name, items) in [
+            ("the lists of a moving surface", pose.words.len()),
             ("the weights of a moving surface", pose.rows.len()),
-            ("what bounds a moving surface", pose.scratch),
+            ("what is kept of a moving surface between its passes", pose.scratch),
         ] {
             let bytes = 4 * items as u64;
             if bytes > limit {
                 return Err(KeyleafError::BeyondLimits {
                     buffer: name,
-                    what: "floats",
+                    what: "words",
                     items: items as u64,
                     bytes,
                     limit,

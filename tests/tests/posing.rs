@@ -336,14 +336,30 @@ fn what_does_not_move_has_no_pass_and_no_buffer_for_that() {
 }
 
 #[test]
-fn what_is_made_of_samples_is_not_posed_on_the_gpu() {
-    let (_, surface) = subdivisions().pop().expect("surfaces");
-    let limit = surface.surface();
-    let samples = LimitSamples::of_surface(limit.topology(), |at| limit.frame(at));
-    let sampled = TrianglePatches::quadratic(limit.topology(), &samples).expect("triangles");
-    assert!(sampled.posed(&[]).is_none());
-    let world = World::new(&(Arc::new(sampled) as Arc<dyn Surface>), moving());
+fn what_is_made_of_samples_is_made_anew_for_each_pose() {
+    let (_, limit) = subdivisions().pop().expect("surfaces");
+    let sampled = |limit: &Moving| -> Arc<dyn Surface> {
+        let limit = limit.surface();
+        let samples = LimitSamples::of_surface(limit.topology(), |at| limit.frame(at));
+        Arc::new(TrianglePatches::quadratic(limit.topology(), &samples).expect("triangles"))
+    };
+    let mut random = Random(8);
+    let mut world = World::new(&sampled(&limit), moving());
     assert!(!world.quadtree.is_posed_on_gpu());
+    for _ in 0..3 {
+        let posed = sampled(&limit.posed(&pose(&limit, &mut random)));
+        world
+            .quadtree
+            .set_surface(&gpu().queue, posed.clone())
+            .expect("the same kind and size");
+        world.passes(&random_view(&mut random, posed.as_ref()), 3);
+        let (a, b) = world
+            .quadtree
+            .read_surface(&gpu().device, &gpu().queue)
+            .expect("the device works");
+        let tables = posed.tables(world.quadtree.origin());
+        assert!(a == tables.a && b == tables.b);
+    }
 }
 
 #[test]

@@ -130,7 +130,7 @@ impl SurfaceBuffers {
         let [a, b]: [&[u8]; 2] = [bytemuck::cast_slice(&tables.a), bytemuck::cast_slice(&tables.b)];
         let fits = [(&self.params, tables.params.as_slice()), (&self.a, a), (&self.b, b)]
             .iter()
-            .all(|(buffer, bytes)| buffer.size() == (bytes.len() as u64).max(16));
+            .all(|(buffer, bytes)| buffer.size() == content(bytes).len() as u64);
         if fits {
             queue.write_buffer(&self.params, 0, &tables.params);
             queue.write_buffer(&self.a, 0, a);
@@ -173,10 +173,15 @@ fn check_sizes(device: &wgpu::Device, tables: &SurfaceTables, topology_words: us
     Ok(())
 }
 
+/// What a buffer holds, which is never of size zero.
+fn content(bytes: &[u8]) -> &[u8] {
+    if bytes.is_empty() { &[0; 16] } else { bytes }
+}
+
 /// A buffer with the given content, never of size zero.
 pub(crate) fn buffer(device: &wgpu::Device, label: &str, contents: &[u8], usage: wgpu::BufferUsages) -> wgpu::Buffer {
     let usage = usage | wgpu::BufferUsages::COPY_DST;
-    let contents = if contents.is_empty() { &[0u8; 16][..] } else { contents };
+    let contents = content(contents);
     device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
         label: Some(label),
         contents,

@@ -18,7 +18,7 @@ pub enum CornerNormals {
     OfMesh,
 }
 
-/// The nets of all faces; `given` are the normals of the corners, by half-edge.
+/// The nets of all faces; `given` are normals of corners, by half-edge.
 pub fn nets(topology: &Topology, positions: &[DVec3], given: &[Option<DVec3>]) -> Vec<(CubicNet, QuadraticNet)> {
     let normals = corner_normals(topology, positions, given);
     let at = |face, corner: u32| {
@@ -42,14 +42,14 @@ pub fn nets(topology: &Topology, positions: &[DVec3], given: &[Option<DVec3>]) -
     (0..topology.face_count()).map(net).collect()
 }
 
-/// The unit normals that are given at the corners of a mesh, by half-edge.
+/// The unit normals that are given at the corners of a mesh, by half-edge; empty if none are.
 pub fn given_normals(
     topology: &Topology,
     mesh: &PolygonMesh,
     normals: CornerNormals,
 ) -> Result<Vec<Option<DVec3>>, TrianglePatchError> {
     if normals == CornerNormals::AngleWeighted {
-        return Ok(vec![None; topology.half_edge_count() as usize]);
+        return Ok(Vec::new());
     }
     let given = mesh.corners.normals.as_ref().ok_or(TrianglePatchError::NoNormals)?;
     let normal = |(root, normal): (Place, &[f32; 3])| {
@@ -63,6 +63,11 @@ pub fn given_normals(
     topology.roots().zip(given).map(normal).collect()
 }
 
+/// The normal that is given at the start of a half-edge.
+pub fn given_at(given: &[Option<DVec3>], half_edge: usize) -> Option<DVec3> {
+    given.get(half_edge).copied().flatten()
+}
+
 /// A unit normal a half-edge: the given one, or that of the faces about the vertex.
 fn corner_normals(topology: &Topology, positions: &[DVec3], given: &[Option<DVec3>]) -> Vec<DVec3> {
     let mut normals = vec![DVec3::Y; topology.half_edge_count() as usize];
@@ -70,7 +75,7 @@ fn corner_normals(topology: &Topology, positions: &[DVec3], given: &[Option<DVec
         let mean = fan.mean_normal(topology, positions);
         for spoke in &fan.spokes {
             let index = topology.half_edge_index(spoke.face, spoke.root) as usize;
-            normals[index] = given[index].unwrap_or(mean);
+            normals[index] = given_at(given, index).unwrap_or(mean);
         }
     }
     normals

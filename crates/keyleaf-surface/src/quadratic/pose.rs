@@ -15,6 +15,7 @@ use super::butterfly::ButterflyMasks;
 use super::fan::Fan;
 use super::loop_limit::LoopMasks;
 use super::mask::{Mask, edges};
+use super::point_normal::given_at;
 use super::recipe::Recipe;
 use super::tables::entries_of;
 use crate::surface::uniform;
@@ -140,7 +141,7 @@ fn half_edge_words(topology: &Topology) -> Vec<u32> {
 fn fan_record(topology: &Topology, fan: &Fan, recipe: &Recipe, lists: &mut Lists) -> [u32; WORDS_OF_FAN] {
     let index = |spoke: &keyleaf_key::HalfEdge| topology.half_edge_index(spoke.face, spoke.root);
     let takes_normal = |half_edge: &u32| match recipe {
-        Recipe::PointNormal(given) => given[*half_edge as usize].is_none(),
+        Recipe::PointNormal(given) => given_at(given, *half_edge as usize).is_none(),
         _ => true,
     };
     let spokes: Vec<u32> = fan.spokes.iter().map(index).filter(takes_normal).collect();

@@ -4,23 +4,32 @@
 //!
 //! The mean is no combination of the control points, so that their hull says nothing. But in dual space hulls hold. Take a part of a
 //! patch in the coordinates in which its middle has mean 0 and precision 1. With E = q̂ − 1 and e the largest norm of E at a control
-//! point, q̂ lies within e of 1 all over the part. Its eigenvalues are at least m, the least at the control points and at least 1 − e, so that
-//! |q̂⁻¹| ≤ 1 / m and |q̂⁻¹ − 1| ≤ e / m if m > 0, and with hulls of control points
-//! - |μ| ≤ R = max |q̄| / m, and μ = q̄ − E μ lies within e R of the hull of q̄;
-//! - μ_h = q̂⁻¹ g with g = q̄_h − q̂_h μ, |g| ≤ G = max |q̄_h| + max |q̂_h| R, within (max |q̂_h| R + G e / m) of the hull of q̄_h;
+//! point, q̂ lies within e of 1 all over the part. Its eigenvalues are at most 1 + e and at least m, the least at the control points and at
+//! least 1 − e, so that |q̂⁻¹| ≤ 1 / m and |q̂⁻¹ − 1| ≤ d = max((1 − m) / m, e / (1 + e)) if m > 0, and with hulls of control points
+//! - |μ| ≤ R = max |q̄| / m, and μ = q̂⁻¹ q̄ lies within d max |q̄| of the hull of q̄;
+//! - μ_h = q̂⁻¹ g with g = q̄_h − q̂_h μ, |g| ≤ G = max |q̄_h| + max |q̂_h| R, within (max |q̂_h| R + d G) of the hull of q̄_h;
 //! - the same for second derivatives, with g = q̄_hk − q̂_hk μ − q̂_h μ_k − q̂_k μ_h, where the values in the middle are taken out of the
 //!   products, so that the terms may cancel.
+//!
+//! Where e is large, ratios say more, since what is far is there mostly where q̂ is great. With the least eigenvalue λ_i of a control point,
+//! that of q̂ is at least Σ B_i λ_i, so that |q̂⁻¹ v| ≤ max |v_i| / λ_i for any v of the degree of q̂, to which derivatives are raised:
+//! - |μ| ≤ R = max |q̄_i| / λ_i, |μ_h| ≤ V_h = max (|q̄_h|_i + |q̂_h|_i R) / λ_i;
+//! - |μ_hk| ≤ max (|q̄_hk|_i + |q̂_hk|_i R) / λ_i + W_h V_k + W_k V_h with W_h = max |q̂_h|_i / λ_i.
 //!
 //! Hulls are mapped to object space as they are, remainders by the norm of the map. e falls with the size of a part, and the bounds
 //! become those of q̄. So the half of the parts whose bounds exceed by most what has been found is cut into four, again and again, until
 //! none exceeds it by more than [`SLACK`] or there are enough parts.
 //!
+//! The patches of a face, most of them small, have simpler bounds first: in the coordinates that they are stored in, in which the mean of
+//! their control points has mean 0 and precision 1, and with no terms that cancel. What these show to be less than what has been found
+//! elsewhere needs no others.
+//!
 //! # Costs
 //!
-//! Some 4 µs a part. Where covariances are alike a few parts do; where disks with conditions of 1e4 are turned against each other,
-//! some hundreds.
+//! Some 2 µs a part, less than half of it for the simpler bounds. Where covariances are alike a few parts do; where disks with conditions
+//! of 1e4 are turned against each other, some hundreds.
 
-use super::centred::{Findings, findings};
+use super::centred::{Findings, ceiling, findings};
 use super::dual::{Dual, DualFrame};
 use super::lanes::{CONTROLS, Lanes, Net, Square};
 use super::lanes_of_triangle::Triangle;
@@ -68,6 +77,25 @@ impl MeanBounds {
         }
     }
 
+    /// Of a point.
+    fn at(point: DVec3) -> Self {
+        Self {
+            low: point,
+            high: point,
+            ..Self::NONE
+        }
+    }
+
+    /// First and second derivatives, or those in parameters exchanged.
+    fn quantities(&self, is_turned: bool) -> [f64; QUANTITIES] {
+        let ([u, v], [uu, uv, vv]) = (self.first, self.second);
+        if is_turned {
+            [v, u, vv, uv, uu]
+        } else {
+            [u, v, uu, uv, vv]
+        }
+    }
+
     fn union(self, other: Self) -> Self {
         Self {
             low: self.low.min(other.low),
@@ -97,39 +125,97 @@ impl DualTriangle {
 
 fn of_patch(shape: &impl Net, controls: &[Dual], frame: &DualFrame, most: usize) -> Option<MeanBounds> {
     let whole = Whole {
-        net: Lanes::of(controls),
-        frame: *frame,
+        controls,
+        frame,
         scale: 1.0,
     };
-    of_patches(shape, &[whole], [most; 2]).0[0]
+    of_patches(shape, &[whole], &Regions::one(1), [most; 2]).0[0]
 }
 
 /// A patch among those of a surface.
-pub struct Whole {
-    pub net: Lanes<CONTROLS>,
+pub struct Whole<'a> {
+    pub controls: &'a [Dual],
     /// Of the control points.
-    pub frame: DualFrame,
+    pub frame: &'a DualFrame,
     /// How many times the domain in whose parameters derivatives are wanted is as large as the patch.
     pub scale: f64,
 }
 
-/// Bounds of patches that count together: none of them need be closer than the largest that has been found on any. At most `most`
+/// Which patches count together: what is wanted of a region are the largest bounds of its patches.
+pub struct Regions {
+    pub count: usize,
+    /// By patch: its regions, and whether their parameters are those of the patch exchanged.
+    pub of_patch: Vec<Vec<(usize, bool)>>,
+}
+
+impl Regions {
+    /// All patches in one.
+    fn one(patches: usize) -> Self {
+        Self {
+            count: 1,
+            of_patch: vec![vec![(0, false)]; patches],
+        }
+    }
+}
+
+/// The largest that has been found in the middles of parts.
+struct Found {
+    /// By region: first derivatives, second ones.
+    of_regions: Vec<[f64; QUANTITIES]>,
+    of_all: Option<MeanBounds>,
+}
+
+/// First and second derivatives.
+const QUANTITIES: usize = 5;
+
+impl Found {
+    fn nothing(regions: &Regions) -> Self {
+        Self {
+            of_regions: vec![[0.0; QUANTITIES]; regions.count],
+            of_all: None,
+        }
+    }
+
+    fn add(&mut self, regions: &[(usize, bool)], middle: Option<MeanBounds>) {
+        let Some(middle) = middle else { return };
+        self.of_all = Some(self.of_all.map_or(middle, |all| all.union(middle)));
+        for &(region, is_turned) in regions {
+            let largest = &mut self.of_regions[region];
+            for (largest, own) in largest.iter_mut().zip(middle.quantities(is_turned)) {
+                *largest = f64::max(*largest, own);
+            }
+        }
+    }
+
+    /// The largest share that bounds of a patch have of what is here, in any of its regions.
+    fn share(&self, regions: &[(usize, bool)], bounds: &MeanBounds) -> f64 {
+        let mut share = 0.0;
+        for &(region, is_turned) in regions {
+            for (found, own) in self.of_regions[region].into_iter().zip(bounds.quantities(is_turned)) {
+                if own > share * found {
+                    share = own / found;
+                }
+            }
+        }
+        share
+    }
+}
+
+/// Bounds of patches; none need be closer than the largest that has been found in its regions. At most `most`
 /// parts, the second number where the precision may not be positive definite. And what has been found in the middles of parts.
 pub fn of_patches(
     shape: &impl Net,
-    patches: &[Whole],
+    patches: &[Whole<'_>],
+    regions: &Regions,
     most: [usize; 2],
 ) -> (Vec<Option<MeanBounds>>, Option<MeanBounds>) {
-    let mut parts = Vec::with_capacity(2 * patches.len());
-    for (patch, whole) in patches.iter().enumerate() {
-        parts.push(Part::new(shape, whole.net, patch, &whole.frame, whole.scale));
-    }
-    let mut found = parts
-        .iter()
-        .filter_map(|part| part.findings.middle)
-        .reduce(MeanBounds::union);
+    let mut found = Found::nothing(regions);
+    let (mut parts, mut bounds) = whole_patches(shape, patches, regions, &mut found);
+    // Patches without a part count as one as well.
+    let others = patches.len() - parts.len();
+    let most = most.map(|most| most.saturating_sub(others));
     loop {
-        let chosen = loosest(&parts, patches, &found, most);
+        let chosen = loosest(&parts, patches, &found.of_all, most);
         if chosen.is_empty() {
             break;
         }
@@ -138,20 +224,63 @@ pub fn of_patches(
             let frame = &patches[whole.patch].frame;
             for quarter in shape.quarters(&whole.net) {
                 let part = Part::new(shape, quarter, whole.patch, frame, 2.0 * whole.scale);
-                found = [found, part.findings.middle]
-                    .into_iter()
-                    .flatten()
-                    .reduce(MeanBounds::union);
+                found.add(&regions.of_patch[whole.patch], part.findings.middle);
                 parts.push(part);
             }
         }
     }
-    (united(&parts, patches.len()), found)
+    unite(&parts, &mut bounds);
+    (bounds, found.of_all)
+}
+
+/// The patches that may have more than what has been found, as parts, and the bounds of the others.
+fn whole_patches(
+    shape: &impl Net,
+    patches: &[Whole<'_>],
+    regions: &Regions,
+    found: &mut Found,
+) -> (Vec<Part>, Vec<Option<MeanBounds>>) {
+    let part = |patch: usize| {
+        let Whole { controls, frame, scale } = patches[patch];
+        Part::new(shape, Lanes::of(controls), patch, frame, scale)
+    };
+    if patches.len() == 1 {
+        let part = part(0);
+        found.add(&regions.of_patch[0], part.findings.middle);
+        return (vec![part], vec![None]);
+    }
+    let ceiling = |whole: &Whole<'_>| ceiling(shape, &Lanes::of(whole.controls), whole.frame, whole.scale);
+    let mut bounds: Vec<Option<MeanBounds>> = patches.iter().map(ceiling).collect();
+    let mut largest = Found::nothing(regions);
+    for (regions, (bounds, whole)) in regions.of_patch.iter().zip(bounds.iter().zip(patches)) {
+        largest.add(regions, *bounds);
+        if bounds.is_some() {
+            found.add(regions, Some(MeanBounds::at(whole.frame.centre)));
+        }
+    }
+    // The largest first, so that what is found there shows that the others are less.
+    let of_patches = bounds.iter().zip(&regions.of_patch).enumerate();
+    let share = |bounds: &Option<MeanBounds>, regions| bounds.map_or(f64::INFINITY, |own| largest.share(regions, &own));
+    let mut order: Vec<(f64, usize)> = of_patches
+        .map(|(patch, (bounds, regions))| (share(bounds, regions), patch))
+        .collect();
+    order.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut parts = Vec::new();
+    for (_, patch) in order {
+        let own = &regions.of_patch[patch];
+        if bounds[patch].is_none_or(|bounds| found.share(own, &bounds) > 1.0) {
+            let part = part(patch);
+            found.add(own, part.findings.middle);
+            parts.push(part);
+            bounds[patch] = None;
+        }
+    }
+    (parts, bounds)
 }
 
 /// The parts to cut next, last one first: half of those that are too loose, and as many as there is room for. Those without bounds count
 /// as the loosest, and have a room of their own.
-fn loosest(parts: &[Part], patches: &[Whole], found: &Option<MeanBounds>, most: [usize; 2]) -> Vec<usize> {
+fn loosest(parts: &[Part], patches: &[Whole<'_>], found: &Option<MeanBounds>, most: [usize; 2]) -> Vec<usize> {
     let loose = |(index, part): (usize, &Part)| {
         let is_finest = part.scale >= FINEST * patches[part.patch].scale;
         let excess = if is_finest { 0.0 } else { part.excess(found) };
@@ -168,18 +297,20 @@ fn loosest(parts: &[Part], patches: &[Whole], found: &Option<MeanBounds>, most: 
     indices
 }
 
-/// The bounds of the patches, none of one with a part that has none.
-fn united(parts: &[Part], patches: usize) -> Vec<Option<MeanBounds>> {
-    let mut bounds: Vec<Option<Option<MeanBounds>>> = vec![None; patches];
+/// The bounds of the patches that have parts, none of one with a part that has none.
+fn unite(parts: &[Part], bounds: &mut [Option<MeanBounds>]) {
+    let mut sums: Vec<Option<Option<MeanBounds>>> = vec![None; bounds.len()];
     for part in parts {
         let own = part.findings.bounds.map(|(bounds, _)| bounds);
-        let sum = &mut bounds[part.patch];
+        let sum = &mut sums[part.patch];
         *sum = Some(match *sum {
             None => own,
             Some(sum) => sum.zip(own).map(|(sum, own)| sum.union(own)),
         });
     }
-    bounds.into_iter().map(Option::flatten).collect()
+    for (sum, bounds) in sums.into_iter().zip(bounds) {
+        *bounds = sum.unwrap_or(*bounds);
+    }
 }
 
 /// A part of a patch.

@@ -2,12 +2,22 @@
 
 use super::bound::MeanBounds;
 use super::dual::{Dual, DualFrame};
-use super::lanes::{CONTROLS, FIRST, Lanes, Net, SECOND};
+use super::lanes::{CONTROLS, FIRST, Lanes, Net, Raising, SECOND};
 use super::symmetric::Symmetric3;
 use glam::{DMat3, DVec3};
+use std::marker::PhantomData;
 
 /// Below this e, 1 − e is near enough to the least eigenvalue of q̂.
 const PLAIN_DEVIATION: f64 = 0.25;
+
+/// From this e on there is no [`ceiling`].
+const MOST_DEVIATION: f64 = 0.5;
+
+/// Mean 0 and precision 1.
+const ONE: Dual = Dual {
+    precision: Symmetric3::IDENTITY,
+    information: DVec3::ZERO,
+};
 
 /// What is known of a part, in the parameters of the domain.
 #[derive(Clone, Copy, Debug, Default)]
@@ -28,131 +38,204 @@ pub fn findings<S: Net>(shape: &S, net: &Lanes<CONTROLS>, frame: &DualFrame, sca
         axes: factors.whitening(),
     };
     let net = net.in_frame(&own);
-    let first = shape.first(&net);
-    let second = shape.second(&first);
-    let [u, v] = &first;
-    let [uu, uv, vv] = &second;
-    let centred = Centred {
-        frame: DualFrame {
-            centre: frame.point(centre),
-            axes: frame.axes * own.axes,
-        },
-        first: [
-            Rate::new(u, &S::MIDDLE_OF_FIRST[0]),
-            Rate::new(v, &S::MIDDLE_OF_FIRST[1]),
-        ],
-        second: [
-            Rate::new(uu, &S::MIDDLE_OF_SECOND[0]),
-            Rate::new(uv, &S::MIDDLE_OF_SECOND[1]),
-            Rate::new(vv, &S::MIDDLE_OF_SECOND[2]),
-        ],
-        net: &net,
+    let frame = DualFrame {
+        centre: frame.point(centre),
+        axes: frame.axes * own.axes,
     };
-    let [_, deviation] = net.largest_precisions(Symmetric3::IDENTITY);
-    let least = if deviation < PLAIN_DEVIATION {
-        1.0 - deviation
-    } else {
-        net.least_eigenvalue(1.0)
-    };
+    let centred = Centred::new(shape, &net, frame);
     Findings {
         middle: Some(centred.middle(scale)),
-        bounds: (least > 0.0).then(|| centred.bounds(deviation, least, scale)),
+        bounds: centred.bounds(scale),
     }
 }
 
-/// The part.
-struct Centred<'a> {
+/// Bounds of a patch from the coordinates of its control points, in which their mean has mean 0 and precision 1. None if q̂ is far from 1.
+pub fn ceiling<S: Net>(shape: &S, net: &Lanes<CONTROLS>, frame: &DualFrame, scale: f64) -> Option<MeanBounds> {
+    let [e, _] = net.farthest(ONE);
+    let is_near = e < MOST_DEVIATION;
+    let bounds = is_near.then(|| Centred::new(shape, net, *frame).bounds(scale));
+    bounds.flatten().map(|(bounds, _)| bounds)
+}
+
+/// A part in coordinates in which its middle has about mean 0 and precision 1.
+struct Centred<'a, S> {
     net: &'a Lanes<CONTROLS>,
     /// From these coordinates to object space.
     frame: DualFrame,
     /// Along both directions.
-    first: [Rate<'a, FIRST>; 2],
+    first: [Lanes<FIRST>; 2],
+    /// In the middle.
+    rates: [Dual; 2],
     /// Along the first direction twice, both, and the second twice.
-    second: [Rate<'a, SECOND>; 3],
+    second: [Lanes<SECOND>; 3],
+    shape: PhantomData<S>,
 }
 
-/// A derivative of the part in dual space.
-struct Rate<'a, const N: usize> {
-    net: &'a Lanes<N>,
-    middle: Dual,
-    /// The largest norm of q̂, and of its difference to the middle.
-    precision: [f64; 2],
-}
+/// By second derivative, the directions along which it is.
+const DIRECTIONS: [[usize; 2]; 3] = [[0, 0], [0, 1], [1, 1]];
 
-impl<'a, const N: usize> Rate<'a, N> {
-    fn new(net: &'a Lanes<N>, weights: &[f64; N]) -> Self {
-        let middle = net.weighted(weights);
-        let precision = net.largest_precisions(middle.precision);
-        Self { net, middle, precision }
-    }
-}
-
-impl Centred<'_> {
-    /// With mean 0 and precision 1, μ_h = q̄_h and μ_hk = q̄_hk − q̂_h μ_k − q̂_k μ_h.
-    fn middle(&self, scale: f64) -> MeanBounds {
-        let rates = &self.first;
-        let length = |v: DVec3| (self.frame.axes * v).length();
-        let second = |rate: &Rate<'_, SECOND>, a: usize, b: usize| {
-            length(rate.middle.information - self.product(a, b) - self.product(b, a)) * scale * scale
-        };
-        let [uu, uv, vv] = &self.second;
-        MeanBounds {
-            low: self.frame.centre,
-            high: self.frame.centre,
-            first: [0, 1].map(|k| length(rates[k].middle.information) * scale.abs()),
-            second: [second(uu, 0, 0), second(uv, 0, 1), second(vv, 1, 1)],
+impl<'a, S: Net> Centred<'a, S> {
+    fn new(shape: &S, net: &'a Lanes<CONTROLS>, frame: DualFrame) -> Self {
+        let first = shape.first(net);
+        Self {
+            net,
+            frame,
+            rates: [0, 1].map(|h| first[h].weighted(&S::MIDDLE_OF_FIRST[h])),
+            second: shape.second(&first),
+            first,
+            shape: PhantomData,
         }
     }
 
-    /// q̂_h μ_k in the middle.
-    fn product(&self, h: usize, k: usize) -> DVec3 {
-        self.first[h].middle.precision * self.first[k].middle.information
+    /// With mean 0 and precision 1, μ_h = q̄_h and μ_hk = q̄_hk − q̂_h μ_k − q̂_k μ_h.
+    fn middle(&self, scale: f64) -> MeanBounds {
+        let length = |v: DVec3| (self.frame.axes * v).length();
+        let second = |n: usize| {
+            let [_, _, _, _, _, _, x, y, z] = &self.second[n].0;
+            let weights = &S::MIDDLE_OF_SECOND[n];
+            let sum = |lane: &[f64; SECOND]| lane.iter().zip(weights).map(|(x, weight)| x * weight).sum();
+            length(DVec3::new(sum(x), sum(y), sum(z)) - self.products(n)) * scale * scale
+        };
+        MeanBounds {
+            low: self.frame.centre,
+            high: self.frame.centre,
+            first: self.rates.map(|rate| length(rate.information) * scale.abs()),
+            second: [0, 1, 2].map(second),
+        }
     }
 
-    /// `e` is what the theory calls so; no eigenvalue of q̂ is below `least`.
-    fn bounds(&self, e: f64, least: f64, scale: f64) -> (MeanBounds, f64) {
+    /// q̂_h μ_k + q̂_k μ_h in the middle.
+    fn products(&self, second: usize) -> DVec3 {
+        let [h, k] = DIRECTIONS[second].map(|h| self.rates[h]);
+        h.precision * k.information + k.precision * h.information
+    }
+
+    /// The bounds, and how much wider their box is than the hull; none if q̂ may not be positive definite.
+    fn bounds(&self, scale: f64) -> Option<(MeanBounds, f64)> {
+        // What the theory calls e and m; eigenvalues of control points only where they may say more than 1 − e.
+        let [e, longest] = self.net.farthest(ONE);
+        let is_plain = e < PLAIN_DEVIATION;
+        let eigenvalues = if is_plain {
+            [1.0; CONTROLS]
+        } else {
+            self.net.least_eigenvalues()
+        };
+        let least = if is_plain {
+            1.0 - e
+        } else {
+            eigenvalues.into_iter().fold(1.0, f64::min)
+        };
+        if least.is_nan() || least <= 0.0 {
+            return None;
+        }
+        let ratios = (!is_plain).then(|| self.ratios(&eigenvalues));
         let axes = self.frame.axes;
         let stretch = norm(axes);
-        let reach = self.net.longest(DVec3::ZERO) / least;
-        let rates = &self.first;
-        // Of the derivatives: |μ_h|, its distance from the middle's, and |μ_h| in object space.
-        let first = rates.each_ref().map(|rate| {
-            let others = rate.precision[0] * reach;
-            let solved = e / least * (rate.net.longest(DVec3::ZERO) + others);
-            let off = rate.net.longest(rate.middle.information) + others + solved;
-            let object = rate.net.longest_mapped(DVec3::ZERO, axes) + stretch * (others + solved);
-            (rate.middle.information.length() + off, off, object)
+        // Of |q̂⁻¹ − 1|, and |μ|.
+        let solving = f64::max((1.0 - least) / least, e / (1.0 + e));
+        let reach = ratios.as_ref().map_or(longest / least, |ratios| ratios.reach);
+        let first = [0, 1].map(|h| {
+            let [precision, information, mapped] = self.first[h].largest(DVec3::ZERO, axes);
+            let [precision_off, information_off] = self.first[h].farthest(self.rates[h]);
+            let others = precision * reach;
+            let solved = solving * (information + others);
+            Rate {
+                precision,
+                precision_off,
+                middle: self.rates[h].information.length(),
+                off: information_off + others + solved,
+                object: mapped + stretch * (others + solved),
+            }
         });
-        let second = |rate: &Rate<'_, SECOND>, a: usize, b: usize| {
-            let off = |h: usize, k: usize| {
-                let middle = first[k].0 - first[k].1;
-                rates[h].precision[1] * middle + rates[h].precision[0] * first[k].1
-            };
-            let (taken, others) = (
-                self.product(a, b) + self.product(b, a),
-                rate.precision[0] * reach + off(a, b) + off(b, a),
-            );
-            let solved = e / least * (rate.net.longest(taken) + others);
-            (rate.net.longest_mapped(taken, axes) + stretch * (others + solved)) * scale * scale
+        let second = |n: usize| {
+            let [precision, information, mapped] = self.second[n].largest(self.products(n), axes);
+            let off = |h: &Rate, k: &Rate| h.precision_off * k.middle + h.precision * k.off;
+            let [h, k] = DIRECTIONS[n].map(|h| &first[h]);
+            let others = precision * reach + off(h, k) + off(k, h);
+            mapped + stretch * (others + solving * (information + others))
         };
-        let (low, high) = self.hull(e * reach);
-        let [uu, uv, vv] = &self.second;
+        let mut second = [0, 1, 2].map(second);
+        let mut first = first.map(|rate| rate.object);
+        if let Some(ratios) = ratios {
+            first = [0, 1].map(|h| first[h].min(stretch * ratios.first[h]));
+            second = [0, 1, 2].map(|n| second[n].min(stretch * ratios.second[n]));
+        }
+        let margin = solving * longest;
+        let (low, high) = hull(self.net, &self.frame, margin);
         let bounds = MeanBounds {
             low,
             high,
-            first: first.map(|(_, _, object)| object * scale.abs()),
-            second: [second(uu, 0, 0), second(uv, 0, 1), second(vv, 1, 1)],
+            first: first.map(|x| x * scale.abs()),
+            second: second.map(|x| x * scale * scale),
         };
-        (bounds, stretch * e * reach)
+        Some((bounds, stretch * margin))
     }
+}
 
-    /// The box of the hull of q̄ in object space, and of what is within `margin` of it.
-    fn hull(&self, margin: f64) -> (DVec3, DVec3) {
-        let rows = self.frame.axes.transpose();
-        let margin = DVec3::new(rows.x_axis.length(), rows.y_axis.length(), rows.z_axis.length()) * margin;
-        let [low, high] = self.net.extent(self.frame.axes);
-        (self.frame.centre + low - margin, self.frame.centre + high + margin)
+/// What is known of a first derivative of a part.
+struct Rate {
+    /// The largest norm of q̂_h, and of its difference to that of the middle.
+    precision: f64,
+    precision_off: f64,
+    /// The length of what the derivative of the mean is about in the middle, and how far it is from that anywhere.
+    middle: f64,
+    off: f64,
+    /// Its length in object space.
+    object: f64,
+}
+
+/// Bounds of the lengths of the mean and its derivatives.
+struct Ratios {
+    reach: f64,
+    first: [f64; 2],
+    second: [f64; 3],
+}
+
+impl<S: Net> Centred<'_, S> {
+    /// By the least eigenvalues of the control points.
+    fn ratios(&self, least: &[f64; CONTROLS]) -> Ratios {
+        let over_least = |over: [f64; CONTROLS]| {
+            let ratios = over.iter().zip(least).map(|(over, least)| over / least);
+            ratios.fold(0.0, f64::max)
+        };
+        let [_, information] = self.net.norms();
+        let reach = over_least(information);
+        let rates: [[f64; 2]; 2] = std::array::from_fn(|h| {
+            let raise = |norms| over_least(raised(&S::RAISE_FIRST[h], norms));
+            let [precision, information] = self.first[h].norms();
+            let sum = std::array::from_fn(|k| information[k] + precision[k] * reach);
+            [raise(&precision), raise(&sum)]
+        });
+        let second = [0, 1, 2].map(|n| {
+            let [h, k] = DIRECTIONS[n];
+            let [precision, information] = self.second[n].norms();
+            let sum = std::array::from_fn(|k| information[k] + precision[k] * reach);
+            over_least(raised(&S::RAISE_SECOND[n], &sum)) + rates[h][0] * rates[k][1] + rates[k][0] * rates[h][1]
+        });
+        Ratios {
+            reach,
+            first: rates.map(|[_, speed]| speed),
+            second,
+        }
     }
+}
+
+fn raised<const N: usize>(raising: &Raising<N>, coefficients: &[f64; N]) -> [f64; CONTROLS] {
+    let mut sums = [0.0; CONTROLS];
+    for (weights, coefficient) in raising.iter().zip(coefficients) {
+        for k in 0..CONTROLS {
+            sums[k] += weights[k] * coefficient;
+        }
+    }
+    sums
+}
+
+/// The box of the hull of q̄ in object space, and of what is within `margin` of it.
+fn hull(net: &Lanes<CONTROLS>, frame: &DualFrame, margin: f64) -> (DVec3, DVec3) {
+    let rows = frame.axes.transpose();
+    let margin = DVec3::new(rows.x_axis.length(), rows.y_axis.length(), rows.z_axis.length()) * margin;
+    let [low, high] = net.extent(frame.axes);
+    (frame.centre + low - margin, frame.centre + high + margin)
 }
 
 /// A bound of the norm of a matrix, exact where its columns are at right angles (Gershgorin, of the matrix of their products).

@@ -1,18 +1,19 @@
 //! Bounds of the patches of a face, in the parameters of their domains.
 
-use super::bound::{MeanBounds, Whole, of_patches};
+use super::bound::{MeanBounds, Regions, Whole, of_patches};
 use super::dual_patches::DualPatches;
-use super::lanes::{Lanes, Net, Square};
+use super::lanes::{Net, Square};
 use super::lanes_of_triangle::BARYCENTRIC;
 use crate::SubdivisionScheme;
 use crate::root_bound::RootBound;
 use crate::subdivision::bezier::Slopes;
 use crate::subdivision::bound;
 use crate::subdivision::neighbourhoods::Neighbourhoods;
+use crate::subdivision::tree::Tree;
 use glam::DVec3;
 
 /// How many cuts into four there may be a face, so that bounds are closer.
-const CUTS: usize = 12;
+const CUTS: usize = 6;
 
 /// How many there may be, so that there are bounds.
 const CUTS_FOR_ANY: usize = 1000;
@@ -36,9 +37,10 @@ impl FaceBounds {
         face: u32,
         corners: u32,
     ) -> Self {
+        let regions = roots(all.trees(face), scheme, corners as usize);
         let bounds = match scheme {
-            SubdivisionScheme::CatmullClark => of_face(all, patches, face, &Square),
-            SubdivisionScheme::Loop(_) => of_face(all, patches, face, &BARYCENTRIC),
+            SubdivisionScheme::CatmullClark => of_face(all, patches, face, &Square, &regions),
+            SubdivisionScheme::Loop(_) => of_face(all, patches, face, &BARYCENTRIC, &regions),
         };
         let first = all.faces[face as usize].first_entries[0];
         let slopes = |domain: usize, patch: u32| {
@@ -58,22 +60,47 @@ impl FaceBounds {
     }
 }
 
+/// The roots of a face as regions of its patches.
+fn roots(trees: &[Tree], scheme: SubdivisionScheme, corners: usize) -> Regions {
+    let firsts: Vec<usize> = trees
+        .iter()
+        .scan(0, |next, tree| Some(std::mem::replace(next, *next + tree.places.len())))
+        .collect();
+    let patches = trees.iter().map(|tree| tree.places.len()).sum();
+    let mut of_patch = vec![Vec::new(); patches];
+    for root in 0..corners {
+        for touched in bound::touched(trees, scheme, corners, root) {
+            of_patch[firsts[touched.domain] + touched.patch as usize].push((root, touched.is_turned));
+        }
+    }
+    Regions {
+        count: corners,
+        of_patch,
+    }
+}
+
 /// Bounds of all patches of a face, domain after domain.
-fn of_face(all: &Neighbourhoods, patches: &DualPatches, face: u32, shape: &impl Net) -> Vec<MeanBounds> {
+fn of_face(
+    all: &Neighbourhoods,
+    patches: &DualPatches,
+    face: u32,
+    shape: &impl Net,
+    regions: &Regions,
+) -> Vec<MeanBounds> {
     let domains = all.trees(face).iter().zip(&all.faces[face as usize].first_entries);
-    let wholes: Vec<Whole> = domains
+    let wholes: Vec<Whole<'_>> = domains
         .flat_map(|(tree, first)| {
             let numbers = first / patches.size..;
             numbers.zip(&tree.places)
         })
         .map(|(patch, place)| Whole {
-            net: Lanes::of(patches.controls(patch)),
-            frame: patches.frames[patch].frame,
+            controls: patches.controls(patch),
+            frame: &patches.frames[patch].frame,
             scale: 1.0 / place.right[0].abs(),
         })
         .collect();
     let most = [CUTS, CUTS_FOR_ANY].map(|cuts| wholes.len() + 3 * cuts);
-    let (bounds, found) = of_patches(shape, &wholes, most);
+    let (bounds, found) = of_patches(shape, &wholes, regions, most);
     let unknown = found.map_or(MeanBounds::NONE, |found| found.widened(WITHOUT_BOUNDS));
     bounds.into_iter().map(|bounds| bounds.unwrap_or(unknown)).collect()
 }

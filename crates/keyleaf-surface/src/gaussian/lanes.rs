@@ -2,7 +2,6 @@
 //! time by any processor.
 
 use super::dual::{Dual, DualFrame};
-use super::symmetric::Symmetric3;
 use glam::{DMat3, DVec3};
 
 /// The numbers (q̂ xx, xy, xz, yy, yz, zz, q̄ x, y, z), each of N control points. Where a net has fewer, the last ones repeat the first.
@@ -18,6 +17,9 @@ pub const FIRST: usize = 12;
 /// As many as their second derivatives have.
 pub const SECOND: usize = 10;
 
+/// By coefficient of lower degree, what it counts in each of the degree of the patches.
+pub type Raising<const N: usize> = [[f64; CONTROLS]; N];
+
 /// How patches of one shape are differentiated and cut.
 pub trait Net {
     /// What the control points count in the middle.
@@ -26,6 +28,11 @@ pub trait Net {
     const MIDDLE_OF_FIRST: [[f64; FIRST]; 2];
     /// The same of derivatives along the first direction twice, both, and the second twice.
     const MIDDLE_OF_SECOND: [[f64; SECOND]; 3];
+
+    /// Coefficients of derivatives along both directions as those of a patch.
+    const RAISE_FIRST: [Raising<FIRST>; 2];
+    /// The same of second derivatives.
+    const RAISE_SECOND: [Raising<SECOND>; 3];
 
     /// The derivatives along both directions.
     fn first(&self, net: &Lanes<CONTROLS>) -> [Lanes<FIRST>; 2];
@@ -108,19 +115,51 @@ impl<const N: usize> Lanes<N> {
         Self(inside)
     }
 
-    /// The largest norm of q̂, and that of q̂ − `from`.
-    pub fn largest_precisions(&self, from: Symmetric3) -> [f64; 2] {
-        let [xx, xy, xz, yy, yz, zz, ..] = &self.0;
-        let square = |[x, y, z]: [f64; 3], [a, b, c]: [f64; 3]| x * x + y * y + z * z + 2.0 * (a * a + b * b + c * c);
-        let (mut own, mut off) = ([0.0; N], [0.0; N]);
+    /// The largest norm of q̂ − `from.precision`, and the longest q̄ − `from.information`.
+    pub fn farthest(&self, from: Dual) -> [f64; 2] {
+        let [xx, xy, xz, yy, yz, zz, x, y, z] = &self.0;
+        let Dual { precision, information } = from;
+        let mut squares = [[0.0; N]; 2];
         for k in 0..N {
-            own[k] = square([xx[k], yy[k], zz[k]], [xy[k], xz[k], yz[k]]);
-            off[k] = square(
-                [xx[k] - from.xx, yy[k] - from.yy, zz[k] - from.zz],
-                [xy[k] - from.xy, xz[k] - from.xz, yz[k] - from.yz],
-            );
+            let [a, b, c] = [xx[k] - precision.xx, yy[k] - precision.yy, zz[k] - precision.zz];
+            let [d, e, f] = [xy[k] - precision.xy, xz[k] - precision.xz, yz[k] - precision.yz];
+            squares[0][k] = a * a + b * b + c * c + 2.0 * (d * d + e * e + f * f);
+            let [a, b, c] = [x[k] - information.x, y[k] - information.y, z[k] - information.z];
+            squares[1][k] = a * a + b * b + c * c;
         }
-        [greatest(&own).sqrt(), greatest(&off).sqrt()]
+        squares.map(|squares| greatest(&squares).sqrt())
+    }
+
+    /// The largest norm of q̂, the longest q̄ − `from`, and the longest of these mapped by `map`.
+    pub fn largest(&self, from: DVec3, map: DMat3) -> [f64; 3] {
+        let [xx, xy, xz, yy, yz, zz, x, y, z] = &self.0;
+        let [a, b, c] = [map.x_axis, map.y_axis, map.z_axis];
+        let mut squares = [[0.0; N]; 3];
+        for k in 0..N {
+            let beside = xy[k] * xy[k] + xz[k] * xz[k] + yz[k] * yz[k];
+            squares[0][k] = xx[k] * xx[k] + yy[k] * yy[k] + zz[k] * zz[k] + 2.0 * beside;
+            let [x, y, z] = [x[k] - from.x, y[k] - from.y, z[k] - from.z];
+            squares[1][k] = x * x + y * y + z * z;
+            let mapped = [
+                a.x * x + b.x * y + c.x * z,
+                a.y * x + b.y * y + c.y * z,
+                a.z * x + b.z * y + c.z * z,
+            ];
+            squares[2][k] = mapped[0] * mapped[0] + mapped[1] * mapped[1] + mapped[2] * mapped[2];
+        }
+        squares.map(|squares| greatest(&squares).sqrt())
+    }
+
+    /// The norms of q̂, and the lengths of q̄.
+    pub fn norms(&self) -> [[f64; N]; 2] {
+        let [xx, xy, xz, yy, yz, zz, x, y, z] = &self.0;
+        let mut norms = [[0.0; N]; 2];
+        for k in 0..N {
+            let beside = xy[k] * xy[k] + xz[k] * xz[k] + yz[k] * yz[k];
+            norms[0][k] = (xx[k] * xx[k] + yy[k] * yy[k] + zz[k] * zz[k] + 2.0 * beside).sqrt();
+            norms[1][k] = (x[k] * x[k] + y[k] * y[k] + z[k] * z[k]).sqrt();
+        }
+        norms
     }
 
     /// The least eigenvalue of q̂ at a control point, at most `least`.
@@ -199,29 +238,6 @@ impl<const N: usize> Lanes<N> {
         })
     }
 
-    /// The longest q̄ − `from`.
-    pub fn longest(&self, from: DVec3) -> f64 {
-        let [.., x, y, z] = &self.0;
-        let mut squares = [0.0; N];
-        for k in 0..N {
-            let [dx, dy, dz] = [x[k] - from.x, y[k] - from.y, z[k] - from.z];
-            squares[k] = dx * dx + dy * dy + dz * dz;
-        }
-        greatest(&squares).sqrt()
-    }
-
-    /// The longest q̄ − `from`, mapped by `map`.
-    pub fn longest_mapped(&self, from: DVec3, map: DMat3) -> f64 {
-        let mapped = self.information_mapped(map);
-        let from = map * from;
-        let mut squares = [0.0; N];
-        for k in 0..N {
-            let [dx, dy, dz] = [mapped[0][k] - from.x, mapped[1][k] - from.y, mapped[2][k] - from.z];
-            squares[k] = dx * dx + dy * dy + dz * dz;
-        }
-        greatest(&squares).sqrt()
-    }
-
     /// q̄ mapped by `map`.
     fn information_mapped(&self, map: DMat3) -> [[f64; N]; 3] {
         let [.., x, y, z] = &self.0;
@@ -272,6 +288,8 @@ impl Net for Square {
         product([0.25, 0.5, 0.25], [0.25, 0.5, 0.25]),
         product([0.125, 0.375, 0.375, 0.125], [0.5, 0.5]),
     ];
+    const RAISE_FIRST: [Raising<FIRST>; 2] = [raising([2, 3]), raising([3, 2])];
+    const RAISE_SECOND: [Raising<SECOND>; 3] = [raising([1, 3]), raising([2, 2]), raising([3, 1])];
 
     fn first(&self, net: &Lanes<CONTROLS>) -> [Lanes<FIRST>; 2] {
         let along = net.map(|lane, slopes| {
@@ -344,6 +362,35 @@ const fn product<const P: usize, const Q: usize, const N: usize>(along: [f64; P]
         k += 1;
     }
     weights
+}
+
+/// From these degrees along u and v to cubic ones.
+const fn raising<const N: usize>([p, q]: [usize; 2]) -> Raising<N> {
+    let mut weights = [[0.0; CONTROLS]; N];
+    let mut j = 0;
+    while j < (p + 1) * (q + 1) {
+        let mut k = 0;
+        while k < CONTROLS {
+            weights[j][k] = raised(p, j % (p + 1), k % 4) * raised(q, j / (p + 1), k / 4);
+            k += 1;
+        }
+        j += 1;
+    }
+    weights
+}
+
+/// What the coefficient j of degree p counts in the coefficient k of degree 3.
+const fn raised(p: usize, j: usize, k: usize) -> f64 {
+    if k < j || k - j > 3 - p {
+        return 0.0;
+    }
+    const CHOOSE: [[f64; 4]; 4] = [
+        [1.0, 0.0, 0.0, 0.0],
+        [1.0, 1.0, 0.0, 0.0],
+        [1.0, 2.0, 1.0, 0.0],
+        [1.0, 3.0, 3.0, 1.0],
+    ];
+    CHOOSE[p][j] * CHOOSE[3 - p][k - j] / CHOOSE[3][k]
 }
 
 /// The lower or the upper half of the four cubic lines of a net, by de Casteljau's algorithm.

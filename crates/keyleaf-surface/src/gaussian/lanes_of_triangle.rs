@@ -1,6 +1,6 @@
 //! Quartic triangles among [nets](super::lanes).
 
-use super::lanes::{CONTROLS, FIRST, Lanes, Net, SECOND};
+use super::lanes::{CONTROLS, FIRST, Lanes, Net, Raising, SECOND};
 use std::sync::LazyLock;
 
 /// Quartic triangles, along two directions given by changes of barycentric coordinates that sum to 0.
@@ -20,6 +20,8 @@ impl Net for Triangle {
     const MIDDLE: [f64; CONTROLS] = middle(4);
     const MIDDLE_OF_FIRST: [[f64; FIRST]; 2] = [middle(3); 2];
     const MIDDLE_OF_SECOND: [[f64; SECOND]; 3] = [middle(2); 3];
+    const RAISE_FIRST: [Raising<FIRST>; 2] = [raising(3); 2];
+    const RAISE_SECOND: [Raising<SECOND>; 3] = [raising(2); 3];
 
     fn first(&self, net: &Lanes<CONTROLS>) -> [Lanes<FIRST>; 2] {
         let slopes =
@@ -66,16 +68,39 @@ const fn place(degree: usize, [i, j]: [usize; 2]) -> usize {
     j * (2 * degree + 3 - j) / 2 + i
 }
 
-const fn middle<const N: usize>(degree: usize) -> [f64; N] {
+/// How often a product of n factors has them in this order of barycentric coordinates.
+const fn ways(degree: usize, [i, j]: [usize; 2]) -> f64 {
     let factorials = [1.0, 1.0, 2.0, 6.0, 24.0];
+    factorials[degree] / (factorials[i] * factorials[j] * factorials[degree - i - j])
+}
+
+const fn middle<const N: usize>(degree: usize) -> [f64; N] {
     let powers = [1.0, 3.0, 9.0, 27.0, 81.0];
     let mut weights = [0.0; N];
     let mut k = 0;
     while k < COUNTS[4 - degree] {
-        let [i, j] = exponents(degree, k);
-        let ways = factorials[degree] / (factorials[i] * factorials[j] * factorials[degree - i - j]);
-        weights[k] = ways / powers[degree];
+        weights[k] = ways(degree, exponents(degree, k)) / powers[degree];
         k += 1;
+    }
+    weights
+}
+
+/// From this degree to quartic ones. The last place repeats the first.
+const fn raising<const N: usize>(degree: usize) -> Raising<N> {
+    let mut weights = [[0.0; CONTROLS]; N];
+    let mut n = 0;
+    while n < COUNTS[4 - degree] {
+        let [i, j] = exponents(degree, n);
+        let mut m = 0;
+        while m < CONTROLS {
+            let [k, l] = exponents(4, if m < COUNTS[0] { m } else { 0 });
+            if k >= i && l >= j && k + l - i - j <= 4 - degree {
+                let rest = ways(4 - degree, [k - i, l - j]);
+                weights[n][m] = ways(degree, [i, j]) * rest / ways(4, [k, l]);
+            }
+            m += 1;
+        }
+        n += 1;
     }
     weights
 }

@@ -17,12 +17,12 @@
 //! - |μ_hk| ≤ max (|q̄_hk|_i + |q̂_hk|_i R) / λ_i + W_h V_k + W_k V_h with W_h = max |q̂_h|_i / λ_i.
 //!
 //! Hulls are mapped to object space as they are, remainders by the norm of the map. e falls with the size of a part, and the bounds
-//! become those of q̄. So the half of the parts whose bounds exceed by most what has been found is cut into four, again and again, until
-//! none exceeds it by more than [`SLACK`] or there are enough parts.
+//! become those of q̄. So the half of the parts whose bounds exceed by most what has been found is cut, squares into halves, triangles into
+//! quarters, again and again, until none exceeds it by more than [`SLACK`] or there are enough parts.
 //!
-//! The patches of a face, most of them small, have simpler bounds first: in the coordinates that they are stored in, in which the mean of
-//! their control points has mean 0 and precision 1, and with no terms that cancel. What these show to be less than what has been found
-//! elsewhere needs no others.
+//! None of this needs the middle to have mean 0 and precision 1 exactly. So the patches of a face, most of them small, first have bounds in
+//! the coordinates that they are stored in, in which the mean of their control points has: what these show to be less than what has been
+//! found elsewhere needs no others, nor does what is small.
 //!
 //! # Costs
 //!
@@ -125,7 +125,7 @@ impl DualTriangle {
 
 fn of_patch(shape: &impl Net, controls: &[Dual], frame: &DualFrame, most: usize) -> Option<MeanBounds> {
     let whole = Whole {
-        controls,
+        net: &Lanes::of(controls),
         frame,
         scale: 1.0,
     };
@@ -134,7 +134,7 @@ fn of_patch(shape: &impl Net, controls: &[Dual], frame: &DualFrame, most: usize)
 
 /// A patch among those of a surface.
 pub struct Whole<'a> {
-    pub controls: &'a [Dual],
+    pub net: &'a Lanes<CONTROLS>,
     /// Of the control points.
     pub frame: &'a DualFrame,
     /// How many times the domain in whose parameters derivatives are wanted is as large as the patch.
@@ -187,24 +187,38 @@ impl Found {
         }
     }
 
-    /// The largest share that bounds of a patch have of what is here, in any of its regions.
+    /// The factor by which bounds of a patch exceed what is here, a root of it for second derivatives.
+    fn excess(&self, regions: &[(usize, bool)], bounds: &MeanBounds) -> f64 {
+        let [u, v, second @ ..] = self.shares(regions, bounds);
+        second
+            .into_iter()
+            .fold(u.max(v), |excess, share| excess.max(share.sqrt()))
+    }
+
+    /// The largest share that bounds of a patch have of what is here.
     fn share(&self, regions: &[(usize, bool)], bounds: &MeanBounds) -> f64 {
-        let mut share = 0.0;
+        self.shares(regions, bounds).into_iter().fold(0.0, f64::max)
+    }
+
+    /// By quantity, the largest share in any of the patch's regions.
+    fn shares(&self, regions: &[(usize, bool)], bounds: &MeanBounds) -> [f64; QUANTITIES] {
+        let mut shares = [0.0; QUANTITIES];
         for &(region, is_turned) in regions {
-            for (found, own) in self.of_regions[region].into_iter().zip(bounds.quantities(is_turned)) {
-                if own > share * found {
-                    share = own / found;
+            let found = self.of_regions[region].into_iter().zip(bounds.quantities(is_turned));
+            for (share, (found, own)) in shares.iter_mut().zip(found) {
+                if own > *share * found {
+                    *share = own / found;
                 }
             }
         }
-        share
+        shares
     }
 }
 
 /// Bounds of patches; none need be closer than the largest that has been found in its regions. At most `most`
 /// parts, the second number where the precision may not be positive definite. And what has been found in the middles of parts.
-pub fn of_patches(
-    shape: &impl Net,
+pub fn of_patches<S: Net>(
+    shape: &S,
     patches: &[Whole<'_>],
     regions: &Regions,
     most: [usize; 2],
@@ -215,15 +229,16 @@ pub fn of_patches(
     let others = patches.len() - parts.len();
     let most = most.map(|most| most.saturating_sub(others));
     loop {
-        let chosen = loosest(&parts, patches, &found.of_all, most);
+        let chosen = loosest(&parts, patches, &found.of_all, most, S::PIECES);
         if chosen.is_empty() {
             break;
         }
         for index in chosen {
             let whole = parts.swap_remove(index);
             let frame = &patches[whole.patch].frame;
-            for quarter in shape.quarters(&whole.net) {
-                let part = Part::new(shape, quarter, whole.patch, frame, 2.0 * whole.scale);
+            for (net, [u, v]) in shape.cut(&whole.net, whole.findings.is_along_v) {
+                let scale = [u * whole.scale[0], v * whole.scale[1]];
+                let part = Part::new(shape, net, whole.patch, frame, scale);
                 found.add(&regions.of_patch[whole.patch], part.findings.middle);
                 parts.push(part);
             }
@@ -241,16 +256,17 @@ fn whole_patches(
     found: &mut Found,
 ) -> (Vec<Part>, Vec<Option<MeanBounds>>) {
     let part = |patch: usize| {
-        let Whole { controls, frame, scale } = patches[patch];
-        Part::new(shape, Lanes::of(controls), patch, frame, scale)
+        let Whole { net, frame, scale } = patches[patch];
+        Part::new(shape, *net, patch, frame, [scale; 2])
     };
     if patches.len() == 1 {
         let part = part(0);
         found.add(&regions.of_patch[0], part.findings.middle);
         return (vec![part], vec![None]);
     }
-    let ceiling = |whole: &Whole<'_>| ceiling(shape, &Lanes::of(whole.controls), whole.frame, whole.scale);
-    let mut bounds: Vec<Option<MeanBounds>> = patches.iter().map(ceiling).collect();
+    let ceiling = |whole: &Whole<'_>| ceiling(shape, whole.net, whole.frame, whole.scale);
+    let ceilings: Vec<Option<(MeanBounds, bool)>> = patches.iter().map(ceiling).collect();
+    let mut bounds: Vec<Option<MeanBounds>> = ceilings.iter().map(|own| own.map(|(bounds, _)| bounds)).collect();
     let mut largest = Found::nothing(regions);
     for (regions, (bounds, whole)) in regions.of_patch.iter().zip(bounds.iter().zip(patches)) {
         largest.add(regions, *bounds);
@@ -268,7 +284,11 @@ fn whole_patches(
     let mut parts = Vec::new();
     for (_, patch) in order {
         let own = &regions.of_patch[patch];
-        if bounds[patch].is_none_or(|bounds| found.share(own, &bounds) > 1.0) {
+        let is_enough = |(bounds, is_near): (MeanBounds, bool)| {
+            // Where q̂ is nearly 1 other bounds would be no closer.
+            found.share(own, &bounds) <= 1.0 || is_near && found.excess(own, &bounds) <= SLACK
+        };
+        if !ceilings[patch].is_some_and(is_enough) {
             let part = part(patch);
             found.add(own, part.findings.middle);
             parts.push(part);
@@ -280,16 +300,22 @@ fn whole_patches(
 
 /// The parts to cut next, last one first: half of those that are too loose, and as many as there is room for. Those without bounds count
 /// as the loosest, and have a room of their own.
-fn loosest(parts: &[Part], patches: &[Whole<'_>], found: &Option<MeanBounds>, most: [usize; 2]) -> Vec<usize> {
+fn loosest(
+    parts: &[Part],
+    patches: &[Whole<'_>],
+    found: &Option<MeanBounds>,
+    most: [usize; 2],
+    more: usize,
+) -> Vec<usize> {
     let loose = |(index, part): (usize, &Part)| {
-        let is_finest = part.scale >= FINEST * patches[part.patch].scale;
+        let is_finest = part.scale[0].max(part.scale[1]) >= FINEST * patches[part.patch].scale;
         let excess = if is_finest { 0.0 } else { part.excess(found) };
         (excess > SLACK).then_some((excess, index))
     };
     let mut chosen: Vec<(f64, usize)> = parts.iter().enumerate().filter_map(loose).collect();
     chosen.sort_by(|a, b| b.0.total_cmp(&a.0));
     let unknown = chosen.iter().filter(|(excess, _)| excess.is_infinite()).count();
-    let [room, room_for_unknown] = most.map(|most| most.saturating_sub(parts.len()) / 3);
+    let [room, room_for_unknown] = most.map(|most| most.saturating_sub(parts.len()) / (more - 1));
     let count = chosen.len().div_ceil(2).max(unknown);
     chosen.truncate(count.min(room.max(unknown.min(room_for_unknown))));
     let mut indices: Vec<usize> = chosen.into_iter().map(|(_, index)| index).collect();
@@ -319,12 +345,12 @@ struct Part {
     /// The number of the patch.
     patch: usize,
     /// The parameters of the domain, in those of the part.
-    scale: f64,
+    scale: [f64; 2],
     findings: Findings,
 }
 
 impl Part {
-    fn new(shape: &impl Net, net: Lanes<CONTROLS>, patch: usize, frame: &DualFrame, scale: f64) -> Self {
+    fn new(shape: &impl Net, net: Lanes<CONTROLS>, patch: usize, frame: &DualFrame, scale: [f64; 2]) -> Self {
         Self {
             patch,
             scale,

@@ -3,21 +3,17 @@
 use super::bound::MeanBounds;
 use super::dual::{Dual, DualFrame};
 use super::lanes::{CONTROLS, FIRST, Lanes, Net, Raising, SECOND};
-use super::symmetric::Symmetric3;
 use glam::{DMat3, DVec3};
 use std::marker::PhantomData;
 
 /// Below this e, 1 − e is near enough to the least eigenvalue of q̂.
 const PLAIN_DEVIATION: f64 = 0.25;
 
+/// Below this e, bounds are hardly closer in the coordinates of a part's own middle.
+const NEARLY_ONE: f64 = 0.1;
+
 /// From this e on there is no [`ceiling`].
 const MOST_DEVIATION: f64 = 0.5;
-
-/// Mean 0 and precision 1.
-const ONE: Dual = Dual {
-    precision: Symmetric3::IDENTITY,
-    information: DVec3::ZERO,
-};
 
 /// What is known of a part, in the parameters of the domain.
 #[derive(Clone, Copy, Debug, Default)]
@@ -26,10 +22,12 @@ pub struct Findings {
     pub middle: Option<MeanBounds>,
     /// Its bounds, and how much wider their box is than the hull; none if e is too great.
     pub bounds: Option<(MeanBounds, f64)>,
+    /// Whether q̂ changes more along the second direction.
+    pub is_along_v: bool,
 }
 
-/// Of the part with these control points; `frame` is theirs, and the domain is `scale` times as large.
-pub fn findings<S: Net>(shape: &S, net: &Lanes<CONTROLS>, frame: &DualFrame, scale: f64) -> Findings {
+/// Of the part with these control points; `frame` is theirs, and the domain is `scale` times as large along both directions.
+pub fn findings<S: Net>(shape: &S, net: &Lanes<CONTROLS>, frame: &DualFrame, scale: [f64; 2]) -> Findings {
     let Some((factors, centre)) = net.weighted(&S::MIDDLE).solve() else {
         return Findings::default();
     };
@@ -45,16 +43,19 @@ pub fn findings<S: Net>(shape: &S, net: &Lanes<CONTROLS>, frame: &DualFrame, sca
     let centred = Centred::new(shape, &net, frame);
     Findings {
         middle: Some(centred.middle(scale)),
-        bounds: centred.bounds(scale),
+        bounds: centred.bounds(net.farthest(Dual::ONE), scale),
+        is_along_v: centred.is_along_v(),
     }
 }
 
-/// Bounds of a patch from the coordinates of its control points, in which their mean has mean 0 and precision 1. None if q̂ is far from 1.
-pub fn ceiling<S: Net>(shape: &S, net: &Lanes<CONTROLS>, frame: &DualFrame, scale: f64) -> Option<MeanBounds> {
-    let [e, _] = net.farthest(ONE);
+/// Bounds of a patch from the coordinates of its control points, in which their mean has mean 0 and precision 1, and whether q̂ is nearly 1.
+/// None if it is far from 1.
+pub fn ceiling<S: Net>(shape: &S, net: &Lanes<CONTROLS>, frame: &DualFrame, scale: f64) -> Option<(MeanBounds, bool)> {
+    let farthest = net.farthest(Dual::ONE);
+    let [e, _] = farthest;
     let is_near = e < MOST_DEVIATION;
-    let bounds = is_near.then(|| Centred::new(shape, net, *frame).bounds(scale));
-    bounds.flatten().map(|(bounds, _)| bounds)
+    let bounds = is_near.then(|| Centred::new(shape, net, *frame).bounds(farthest, [scale; 2]));
+    bounds.flatten().map(|(bounds, _)| (bounds, e < NEARLY_ONE))
 }
 
 /// A part in coordinates in which its middle has about mean 0 and precision 1.
@@ -64,6 +65,8 @@ struct Centred<'a, S> {
     frame: DualFrame,
     /// Along both directions.
     first: [Lanes<FIRST>; 2],
+    /// The largest norms and lengths of these, see [`Lanes::largest`].
+    largest: [[f64; 3]; 2],
     /// In the middle.
     rates: [Dual; 2],
     /// Along the first direction twice, both, and the second twice.
@@ -74,6 +77,12 @@ struct Centred<'a, S> {
 /// By second derivative, the directions along which it is.
 const DIRECTIONS: [[usize; 2]; 3] = [[0, 0], [0, 1], [1, 1]];
 
+/// What a second derivative is multiplied with in longer parameters.
+fn product(scale: [f64; 2], second: usize) -> f64 {
+    let [h, k] = DIRECTIONS[second];
+    scale[h] * scale[k]
+}
+
 impl<'a, S: Net> Centred<'a, S> {
     fn new(shape: &S, net: &'a Lanes<CONTROLS>, frame: DualFrame) -> Self {
         let first = shape.first(net);
@@ -82,26 +91,32 @@ impl<'a, S: Net> Centred<'a, S> {
             frame,
             rates: [0, 1].map(|h| first[h].weighted(&S::MIDDLE_OF_FIRST[h])),
             second: shape.second(&first),
+            largest: [0, 1].map(|h| first[h].largest(DVec3::ZERO, frame.axes)),
             first,
             shape: PhantomData,
         }
     }
 
     /// With mean 0 and precision 1, μ_h = q̄_h and μ_hk = q̄_hk − q̂_h μ_k − q̂_k μ_h.
-    fn middle(&self, scale: f64) -> MeanBounds {
+    fn middle(&self, scale: [f64; 2]) -> MeanBounds {
         let length = |v: DVec3| (self.frame.axes * v).length();
         let second = |n: usize| {
             let [_, _, _, _, _, _, x, y, z] = &self.second[n].0;
             let weights = &S::MIDDLE_OF_SECOND[n];
             let sum = |lane: &[f64; SECOND]| lane.iter().zip(weights).map(|(x, weight)| x * weight).sum();
-            length(DVec3::new(sum(x), sum(y), sum(z)) - self.products(n)) * scale * scale
+            length(DVec3::new(sum(x), sum(y), sum(z)) - self.products(n))
         };
         MeanBounds {
             low: self.frame.centre,
             high: self.frame.centre,
-            first: self.rates.map(|rate| length(rate.information) * scale.abs()),
-            second: [0, 1, 2].map(second),
+            first: [0, 1].map(|h| length(self.rates[h].information) * scale[h]),
+            second: [0, 1, 2].map(|n| second(n) * product(scale, n)),
         }
+    }
+
+    fn is_along_v(&self) -> bool {
+        let [[u, ..], [v, ..]] = self.largest;
+        v > u
     }
 
     /// q̂_h μ_k + q̂_k μ_h in the middle.
@@ -110,10 +125,10 @@ impl<'a, S: Net> Centred<'a, S> {
         h.precision * k.information + k.precision * h.information
     }
 
-    /// The bounds, and how much wider their box is than the hull; none if q̂ may not be positive definite.
-    fn bounds(&self, scale: f64) -> Option<(MeanBounds, f64)> {
-        // What the theory calls e and m; eigenvalues of control points only where they may say more than 1 − e.
-        let [e, longest] = self.net.farthest(ONE);
+    /// The bounds, and how much wider their box is than the hull; none if q̂ may not be positive definite. From what the theory calls e, and
+    /// the longest q̄.
+    fn bounds(&self, [e, longest]: [f64; 2], scale: [f64; 2]) -> Option<(MeanBounds, f64)> {
+        // What the theory calls m; eigenvalues of control points only where they may say more than 1 − e.
         let is_plain = e < PLAIN_DEVIATION;
         let eigenvalues = if is_plain {
             [1.0; CONTROLS]
@@ -135,7 +150,7 @@ impl<'a, S: Net> Centred<'a, S> {
         let solving = f64::max((1.0 - least) / least, e / (1.0 + e));
         let reach = ratios.as_ref().map_or(longest / least, |ratios| ratios.reach);
         let first = [0, 1].map(|h| {
-            let [precision, information, mapped] = self.first[h].largest(DVec3::ZERO, axes);
+            let [precision, information, mapped] = self.largest[h];
             let [precision_off, information_off] = self.first[h].farthest(self.rates[h]);
             let others = precision * reach;
             let solved = solving * (information + others);
@@ -165,8 +180,8 @@ impl<'a, S: Net> Centred<'a, S> {
         let bounds = MeanBounds {
             low,
             high,
-            first: first.map(|x| x * scale.abs()),
-            second: second.map(|x| x * scale * scale),
+            first: [0, 1].map(|h| first[h] * scale[h]),
+            second: [0, 1, 2].map(|n| second[n] * product(scale, n)),
         };
         Some((bounds, stretch * margin))
     }

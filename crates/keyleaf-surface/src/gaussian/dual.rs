@@ -92,6 +92,12 @@ pub struct Dual {
 }
 
 impl Dual {
+    /// Mean 0 and precision 1.
+    pub(super) const ONE: Self = Self {
+        precision: Symmetric3::IDENTITY,
+        information: DVec3::ZERO,
+    };
+
     /// Of a Gaussian, in the coordinates of a frame: the precision is Tᵀ Σ⁻¹ T, and the mean T⁻¹ (μ − c).
     pub fn of(mean: DVec3, covariance: &Covariance, frame: &DualFrame) -> Self {
         Self::of_precision(mean, covariance.precision(), frame)

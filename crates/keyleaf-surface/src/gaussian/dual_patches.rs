@@ -1,9 +1,11 @@
 //! The patches of a surface in dual space, each in a frame of its own.
 
 use super::dual::{Dual, DualFrame, MeanJet, whitening};
+use super::lanes::{CONTROLS, Lanes};
 use super::patch::{DualSquare, DualTriangle};
 use super::symmetric::Symmetric3;
 use crate::subdivision::bicubic;
+use crate::subdivision::neighbourhoods::{Evaluated, Neighbourhoods};
 use glam::{DMat3, DVec3};
 
 /// The control vertices in dual space, about their common centre.
@@ -36,36 +38,46 @@ pub struct PatchFrame {
     factor: f64,
 }
 
-/// Control points of all patches, in the order of [`Evaluated`](crate::subdivision::neighbourhoods::Evaluated).
+/// Control points of all patches, in the order of [`Evaluated`].
 #[derive(Clone, Debug)]
 pub struct DualPatches {
     /// Control points a patch.
     pub size: usize,
     /// One a patch.
     pub frames: Vec<PatchFrame>,
-    /// In the frames.
-    pub controls: Vec<Dual>,
+    /// In the frames, one a patch.
+    pub nets: Vec<Lanes<CONTROLS>>,
 }
 
 impl DualPatches {
-    /// From the control points about a centre: of each patch the first, then the differences of the others to it.
-    pub fn new(size: usize, mut controls: Vec<Dual>, centre: DVec3) -> Self {
-        let frames = controls
-            .chunks_exact_mut(size)
-            .map(|patch| {
-                let first = patch[0];
-                patch[1..].iter_mut().for_each(|control| *control = *control + first);
-                let own = PatchFrame::of(patch);
-                patch.iter_mut().for_each(|control| *control = own.inside(control));
-                own.moved(centre)
-            })
-            .collect();
-        Self { size, frames, controls }
+    /// Of the neighbourhoods of these vertices. And errors at the samples of terminal patches, with their patches, about the centre of the
+    /// vertices.
+    pub fn new(all: &Neighbourhoods, vertices: &DualVertices) -> (Self, Vec<(u32, Dual)>) {
+        let size = all.control_points;
+        let values: Vec<[f64; 9]> = vertices.values.iter().map(Dual::to_array).collect();
+        let mut patches = Self {
+            size,
+            frames: Vec::with_capacity(all.entries / size),
+            nets: Vec::with_capacity(all.entries / size),
+        };
+        let mut evaluated = Evaluated::nothing();
+        all.evaluate_faces(&values, &mut evaluated, |evaluated| {
+            for points in evaluated.points.chunks_exact(size) {
+                let net = Lanes::of_differences(points);
+                let own = PatchFrame::of(&net, size);
+                patches.nets.push(own.net_inside(&net));
+                patches.frames.push(own.moved(vertices.centre));
+            }
+            evaluated.points.clear();
+        });
+        let errors = evaluated.errors.into_iter();
+        let errors = errors.map(|(patch, error)| (patch, Dual::from_array(error)));
+        (patches, errors.collect())
     }
 
     /// The control points of a patch.
-    pub fn controls(&self, patch: usize) -> &[Dual] {
-        &self.controls[patch * self.size..][..self.size]
+    pub fn controls(&self, patch: usize) -> impl Iterator<Item = Dual> + '_ {
+        (0..self.size).map(move |k| self.nets[patch].control(k))
     }
 
     /// The control points at the corners of a patch, counter-clockwise.
@@ -79,12 +91,12 @@ impl DualPatches {
 
     /// A patch of a Catmull-Clark surface.
     pub fn square(&self, patch: usize) -> Option<DualSquare> {
-        DualSquare::new([3, 3], self.controls(patch).to_vec())
+        DualSquare::new([3, 3], self.controls(patch).collect())
     }
 
     /// A patch of a Loop surface.
     pub fn triangle(&self, patch: usize) -> Option<DualTriangle> {
-        DualTriangle::new(4, self.controls(patch).to_vec())
+        DualTriangle::new(4, self.controls(patch).collect())
     }
 
     /// From the coordinates of a patch to object space; where its precision is not positive definite, the middle of the patch.
@@ -100,18 +112,16 @@ impl DualPatches {
 
     /// The mean of a control point, about the middle of the patch.
     pub fn offset(&self, patch: usize, control: usize) -> Option<DVec3> {
-        Some(self.frames[patch].frame.axes * self.controls(patch)[control].mean()?)
+        Some(self.frames[patch].frame.axes * self.nets[patch].control(control).mean()?)
     }
 }
 
 impl PatchFrame {
     /// The frame in which the mean of these control points has mean 0 and precision 1. The unit is that of the longest axis: so
     /// coordinates are numbers for f32, whatever the covariances are.
-    fn of(patch: &[Dual]) -> Self {
-        let share = 1.0 / patch.len() as f64;
-        let mean = patch
-            .iter()
-            .fold(Dual::default(), |sum, &control| sum + control * share);
+    fn of(net: &Lanes<CONTROLS>, size: usize) -> Self {
+        let share = 1.0 / size as f64;
+        let mean = net.weighted(&std::array::from_fn(|k| if k < size { share } else { 0.0 }));
         if let (Some(centre), Some(axes)) = (mean.mean(), whitening(mean.precision)) {
             let columns = [axes.x_axis, axes.y_axis, axes.z_axis];
             let unit = columns.iter().map(|column| column.length()).fold(0.0, f64::max);
@@ -121,8 +131,7 @@ impl PatchFrame {
                 factor: unit * unit,
             };
         }
-        let traces = patch.iter().map(|control| control.precision.trace().abs());
-        let largest = traces.fold(0.0, f64::max);
+        let largest = net.traces().into_iter().map(f64::abs).fold(0.0, f64::max);
         Self {
             frame: DualFrame::OBJECT,
             factor: if largest > 0.0 { 1.0 / largest } else { 1.0 },
@@ -131,6 +140,12 @@ impl PatchFrame {
 
     fn inside(&self, value: &Dual) -> Dual {
         value.in_frame(&self.frame) * self.factor
+    }
+
+    fn net_inside(&self, net: &Lanes<CONTROLS>) -> Lanes<CONTROLS> {
+        let mut inside = net.in_frame(&self.frame);
+        inside.0.as_flattened_mut().iter_mut().for_each(|x| *x *= self.factor);
+        inside
     }
 
     fn moved(mut self, by: DVec3) -> Self {

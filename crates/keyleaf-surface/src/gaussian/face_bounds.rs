@@ -8,15 +8,15 @@ use crate::SubdivisionScheme;
 use crate::root_bound::RootBound;
 use crate::subdivision::bezier::Slopes;
 use crate::subdivision::bound;
-use crate::subdivision::neighbourhoods::Neighbourhoods;
-use crate::subdivision::tree::Tree;
+use crate::subdivision::neighbourhoods::{Kind, Neighbourhoods};
 use glam::DVec3;
 
-/// How many cuts into four there may be a face, so that bounds are closer.
-const CUTS: usize = 6;
+/// How many more parts than patches there may be a face, so that bounds are closer.
+const PARTS: usize = 12;
+const PARTS_OF_TRIANGLE: usize = 15;
 
-/// How many there may be, so that there are bounds.
-const CUTS_FOR_ANY: usize = 1000;
+/// How many more there may be, so that there are bounds.
+const PARTS_FOR_ANY: usize = 3000;
 
 /// How many times as large as what has been found anything may be on a patch without bounds. Only precisions that are positive definite
 /// by a hair, or not at all, leave one.
@@ -35,12 +35,11 @@ impl FaceBounds {
         patches: &DualPatches,
         scheme: SubdivisionScheme,
         face: u32,
-        corners: u32,
+        regions: &Regions,
     ) -> Self {
-        let regions = roots(all.trees(face), scheme, corners as usize);
         let bounds = match scheme {
-            SubdivisionScheme::CatmullClark => of_face(all, patches, face, &Square, &regions),
-            SubdivisionScheme::Loop(_) => of_face(all, patches, face, &BARYCENTRIC, &regions),
+            SubdivisionScheme::CatmullClark => of_face(all, patches, face, &Square, regions, PARTS),
+            SubdivisionScheme::Loop(_) => of_face(all, patches, face, &BARYCENTRIC, regions, PARTS_OF_TRIANGLE),
         };
         let first = all.faces[face as usize].first_entries[0];
         let slopes = |domain: usize, patch: u32| {
@@ -49,9 +48,7 @@ impl FaceBounds {
             Slopes { first, second }
         };
         Self {
-            roots: bound::of_roots(all.trees(face), scheme, corners as usize, |domain, patch, _| {
-                slopes(domain, patch)
-            }),
+            roots: bound::of_roots(all.kind(face), scheme, |domain, patch, _| slopes(domain, patch)),
             low: bounds.iter().fold(DVec3::INFINITY, |low, bounds| low.min(bounds.low)),
             high: bounds
                 .iter()
@@ -60,22 +57,23 @@ impl FaceBounds {
     }
 }
 
-/// The roots of a face as regions of its patches.
-fn roots(trees: &[Tree], scheme: SubdivisionScheme, corners: usize) -> Regions {
-    let firsts: Vec<usize> = trees
-        .iter()
-        .scan(0, |next, tree| Some(std::mem::replace(next, *next + tree.places.len())))
-        .collect();
-    let patches = trees.iter().map(|tree| tree.places.len()).sum();
-    let mut of_patch = vec![Vec::new(); patches];
-    for root in 0..corners {
-        for touched in bound::touched(trees, scheme, corners, root) {
-            of_patch[firsts[touched.domain] + touched.patch as usize].push((root, touched.is_turned));
+impl Regions {
+    /// The roots of faces of a kind.
+    pub fn roots(kind: &Kind) -> Self {
+        let mut firsts = vec![0];
+        for tree in &kind.trees {
+            firsts.push(firsts[firsts.len() - 1] + tree.places.len());
         }
-    }
-    Regions {
-        count: corners,
-        of_patch,
+        let mut of_patch = vec![Vec::new(); firsts[kind.trees.len()]];
+        for (root, touched) in kind.touched.iter().enumerate() {
+            for touched in touched {
+                of_patch[firsts[touched.domain] + touched.patch as usize].push((root, touched.is_turned));
+            }
+        }
+        Self {
+            count: kind.touched.len(),
+            of_patch,
+        }
     }
 }
 
@@ -86,6 +84,7 @@ fn of_face(
     face: u32,
     shape: &impl Net,
     regions: &Regions,
+    more: usize,
 ) -> Vec<MeanBounds> {
     let domains = all.trees(face).iter().zip(&all.faces[face as usize].first_entries);
     let wholes: Vec<Whole<'_>> = domains
@@ -94,12 +93,12 @@ fn of_face(
             numbers.zip(&tree.places)
         })
         .map(|(patch, place)| Whole {
-            controls: patches.controls(patch),
+            net: &patches.nets[patch],
             frame: &patches.frames[patch].frame,
             scale: 1.0 / place.right[0].abs(),
         })
         .collect();
-    let most = [CUTS, CUTS_FOR_ANY].map(|cuts| wholes.len() + 3 * cuts);
+    let most = [more, PARTS_FOR_ANY].map(|more| wholes.len() + more);
     let (bounds, found) = of_patches(shape, &wholes, regions, most);
     let unknown = found.map_or(MeanBounds::NONE, |found| found.widened(WITHOUT_BOUNDS));
     bounds.into_iter().map(|bounds| bounds.unwrap_or(unknown)).collect()

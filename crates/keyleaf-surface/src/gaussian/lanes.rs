@@ -40,6 +40,11 @@ pub trait Net {
     fn second(&self, first: &[Lanes<FIRST>; 2]) -> [Lanes<SECOND>; 3];
     /// Four parts, in parameters half as long; these may run backwards.
     fn quarters(&self, net: &Lanes<CONTROLS>) -> [Lanes<CONTROLS>; 4];
+
+    /// Into how many parts a net is [`cut`](Self::cut).
+    const PIECES: usize;
+    /// The parts of a net that changes most along one direction, and by how much longer their parameters are.
+    fn cut(&self, net: &Lanes<CONTROLS>, is_along_v: bool) -> impl Iterator<Item = (Lanes<CONTROLS>, [f64; 2])>;
 }
 
 impl Lanes<CONTROLS> {
@@ -50,6 +55,20 @@ impl Lanes<CONTROLS> {
         for (k, control) in controls.iter().take(CONTROLS).enumerate() {
             for (lane, number) in lanes.0.iter_mut().zip(control.to_array()) {
                 lane[k] = number;
+            }
+        }
+        lanes
+    }
+}
+
+impl Lanes<CONTROLS> {
+    /// Of a first control point, and the differences of the others to it.
+    pub fn of_differences(points: &[[f64; 9]]) -> Self {
+        let first = points.first().copied().unwrap_or_default();
+        let mut lanes = Self(first.map(|number| [number; CONTROLS]));
+        for (k, difference) in points.iter().enumerate().take(CONTROLS).skip(1) {
+            for (lane, number) in lanes.0.iter_mut().zip(difference) {
+                lane[k] += number;
             }
         }
         lanes
@@ -326,16 +345,30 @@ impl Net for Square {
     }
 
     fn quarters(&self, net: &Lanes<CONTROLS>) -> [Lanes<CONTROLS>; 4] {
-        let below_or_above = |half: usize| net.map(|lane, part| halve(lane, part, half, |line, k| line + 4 * k));
-        let left_or_right =
-            |net: &Lanes<CONTROLS>, half| net.map(|lane, part| halve(lane, part, half, |line, k| 4 * line + k));
-        let [below, above] = [below_or_above(0), below_or_above(1)];
+        let [below, above] = [half(net, true, 0), half(net, true, 1)];
         [
-            left_or_right(&below, 0),
-            left_or_right(&below, 1),
-            left_or_right(&above, 0),
-            left_or_right(&above, 1),
+            half(&below, false, 0),
+            half(&below, false, 1),
+            half(&above, false, 0),
+            half(&above, false, 1),
         ]
+    }
+
+    const PIECES: usize = 2;
+
+    /// Halves.
+    fn cut(&self, net: &Lanes<CONTROLS>, is_along_v: bool) -> impl Iterator<Item = (Lanes<CONTROLS>, [f64; 2])> {
+        let scale = if is_along_v { [1.0, 2.0] } else { [2.0, 1.0] };
+        [0, 1].map(|k| (half(net, is_along_v, k), scale)).into_iter()
+    }
+}
+
+/// The first or the second half of a bicubic net along one direction.
+fn half(net: &Lanes<CONTROLS>, is_along_v: bool, half: usize) -> Lanes<CONTROLS> {
+    if is_along_v {
+        net.map(|lane, part| halve(lane, part, half, |line, k| line + 4 * k))
+    } else {
+        net.map(|lane, part| halve(lane, part, half, |line, k| 4 * line + k))
     }
 }
 

@@ -51,6 +51,13 @@ impl Net for Triangle {
         let [a, b, c, d] = &*QUARTERS;
         [quarter(a), quarter(b), quarter(c), quarter(d)]
     }
+
+    const PIECES: usize = 4;
+
+    /// Quarters.
+    fn cut(&self, net: &Lanes<CONTROLS>, _is_along_v: bool) -> impl Iterator<Item = (Lanes<CONTROLS>, [f64; 2])> {
+        self.quarters(net).map(|quarter| (quarter, [2.0; 2])).into_iter()
+    }
 }
 
 /// The exponent pairs (i, j) of u and v of a control point.

@@ -19,7 +19,6 @@ use super::dual::Dual;
 use super::dual_patches::DualPatches;
 use super::lanes::{CONTROLS, Lanes, Net};
 use super::surface::Solver;
-use super::symmetric::Symmetric3;
 use crate::mesh::F32_ROUNDING;
 use glam::DVec3;
 
@@ -58,9 +57,9 @@ pub fn error(shape: &impl Net, patches: &DualPatches, solver: Solver) -> f64 {
     let mut parts = Vec::new();
     for patch in 0..patches.frames.len() {
         let whole = Whole::new(patches, patch, solver);
-        match whole.if_nearly_one(patches.controls(patch)) {
+        match whole.if_nearly_one(&patches.nets[patch]) {
             Some(bound) => least = f64::max(least, bound),
-            None => parts.push(Part::first(shape, whole, Lanes::of(patches.controls(patch)))),
+            None => parts.push(Part::first(shape, whole, patches.nets[patch])),
         }
     }
     for _ in 0..=CUTS + patches.frames.len() / PATCHES_OF_CUT {
@@ -109,20 +108,16 @@ impl Whole {
         Self {
             solver,
             stretch: longest(columns.into_iter()),
-            information: longest(patches.controls(patch).iter().map(|control| control.information)),
+            information: patches.nets[patch].farthest(Dual::default())[1],
             reach: f64::INFINITY,
             negative: 0.0,
         }
     }
 
     /// The bound, if q̂ is nearly 1 all over the patch.
-    fn if_nearly_one(&self, controls: &[Dual]) -> Option<f64> {
-        let off = |control: &Dual| (control.precision - Symmetric3::IDENTITY).norm_squared();
-        let off = controls.iter().map(off).fold(0.0, f64::max).sqrt();
-        let trace = controls
-            .iter()
-            .map(|control| control.precision.trace())
-            .fold(0.0, f64::max);
+    fn if_nearly_one(&self, net: &Lanes<CONTROLS>) -> Option<f64> {
+        let [off, _] = net.farthest(Dual::ONE);
+        let trace = net.traces().into_iter().fold(0.0, f64::max);
         let least = 1.0 - off;
         let reach = self.information / least;
         (off < NEARLY_ONE).then(|| self.bound(trace / least, 0.0, reach, reach))

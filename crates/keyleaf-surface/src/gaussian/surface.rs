@@ -1,5 +1,6 @@
 //! Gaussian-product surfaces. Twin of `shaders/surfaces/gaussian_catmull_clark.wgsl` and `gaussian_loop.wgsl`.
 
+use super::bound::Regions;
 use super::covariance_mesh::CovarianceMesh;
 use super::dual::{Dual, DualFrame, MeanJet};
 use super::dual_patches::{DualPatches, DualVertices};
@@ -24,6 +25,9 @@ use crate::{
 };
 use glam::DVec3;
 use keyleaf_key::{Place, RootPoint, Topology};
+
+/// Patches that are less of their domain are left out of the normal of the face.
+const LEAST_PART: f64 = 0.125;
 
 /// How the shader finds a mean from its precision.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -128,11 +132,10 @@ impl GaussianProduct {
         }
         let precisions = common_unit(mesh);
         let vertices = DualVertices::new(&cage.positions, &precisions);
-        let dual = neighbourhoods.evaluate(&vertices.values);
-        let patches = DualPatches::new(neighbourhoods.control_points, dual.points, vertices.centre);
+        let (patches, errors) = DualPatches::new(&neighbourhoods, &vertices);
         let mut surface = Self {
             settings,
-            terminal_error: terminal::error(&patches, &dual.errors, vertices.centre),
+            terminal_error: terminal::error(&patches, &errors, vertices.centre),
             rounding: match scheme {
                 SubdivisionScheme::CatmullClark => rounding::error(&Square, &patches, settings.solver),
                 SubdivisionScheme::Loop(_) => rounding::error(&BARYCENTRIC, &patches, settings.solver),
@@ -231,11 +234,14 @@ impl GaussianProduct {
         }
     }
 
-    /// The direction of the sum of the patches' area vectors, each from its corners.
+    /// The direction of the sum of the patches' area vectors, each from its corners, without the smallest patches.
     fn mean_normal(&self, face: u32) -> DVec3 {
         let (mut sum, mut lengths, mut longest) = (DVec3::ZERO, 0.0, DVec3::ZERO);
         for (domain, tree) in self.neighbourhoods.trees(face).iter().enumerate() {
-            for patch in 0..tree.places.len() as u32 {
+            for (patch, place) in (0..).zip(&tree.places) {
+                if place.right[0].abs() < LEAST_PART {
+                    continue;
+                }
                 let patch = self.patch(face, domain, patch);
                 let mut corners = self.patches.corners().iter();
                 let mut corner = || self.patches.offset(patch, *corners.next()?);
@@ -258,10 +264,12 @@ impl GaussianProduct {
     /// The larger of both roots of every mesh edge, and the box of all patches.
     fn set_bounds(&mut self) {
         let topology = &self.topology;
+        let all = &self.neighbourhoods;
         let (mut roots, mut low, mut high) = (Vec::new(), DVec3::INFINITY, DVec3::NEG_INFINITY);
-        for face in 0..topology.face_count() {
-            let corners = topology.corner_count(face);
-            let own = FaceBounds::new(&self.neighbourhoods, &self.patches, self.settings.scheme, face, corners);
+        let regions: Vec<Regions> = all.kinds.iter().map(Regions::roots).collect();
+        for (face, ring) in (0..).zip(&all.faces) {
+            let regions = &regions[ring.kind as usize];
+            let own = FaceBounds::new(all, &self.patches, self.settings.scheme, face, regions);
             roots.extend(own.roots);
             (low, high) = (low.min(own.low), high.max(own.high));
         }

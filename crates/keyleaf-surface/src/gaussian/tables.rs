@@ -10,7 +10,8 @@
 //! Then the mean normals of the faces.
 
 use super::GaussianProduct;
-use super::dual::{Dual, DualFrame};
+use super::dual::DualFrame;
+use super::lanes::{CONTROLS, Lanes};
 use crate::mesh::{POSITION_ERROR, vector_entry};
 use crate::subdivision::tables::TopologyWords;
 use crate::{SubdivisionScheme, Surface, SurfaceTables};
@@ -36,9 +37,9 @@ pub fn tables(surface: &GaussianProduct, origin: DVec3) -> SurfaceTables {
     let largest = (low - origin).abs().max((high - origin).abs()).max_element();
     let rounding = POSITION_ERROR * largest + surface.rounding;
     let mut floats = Vec::with_capacity(4 * (patches.frames.len() * entries + surface.normals.len()));
-    for (own, controls) in patches.frames.iter().zip(patches.controls.chunks_exact(patches.size)) {
+    for (own, net) in patches.frames.iter().zip(&patches.nets) {
         push_frame(&mut floats, &own.frame, origin);
-        push_controls(&mut floats, controls);
+        push_controls(&mut floats, net, patches.size);
     }
     floats.extend(surface.normals.iter().flat_map(|&normal| vector_entry(normal)));
     SurfaceTables {
@@ -63,13 +64,11 @@ fn push_frame(floats: &mut Vec<f32>, frame: &DualFrame, origin: DVec3) {
     }
 }
 
-fn push_controls(floats: &mut Vec<f32>, controls: &[Dual]) {
-    for control in controls {
-        let [xx, xy, xz, yy, yz, zz, x, y, _] = control.to_array();
-        floats.extend([xx, xy, xz, yy, yz, zz, x, y].map(|x| x as f32));
+fn push_controls(floats: &mut Vec<f32>, net: &Lanes<CONTROLS>, size: usize) {
+    let [others @ .., last] = &net.0;
+    for k in 0..size {
+        floats.extend(others.each_ref().map(|lane| lane[k] as f32));
     }
-    for four in controls.chunks(4) {
-        let last = |k: usize| four.get(k).map_or(0.0, |control| control.information.z);
-        floats.extend([0, 1, 2, 3].map(|k| last(k) as f32));
-    }
+    let in_fours = 0..size.next_multiple_of(4);
+    floats.extend(in_fours.map(|k| if k < size { last[k] as f32 } else { 0.0 }));
 }

@@ -17,7 +17,7 @@ pub fn error(patches: &DualPatches, errors: &[(u32, Dual)], centre: DVec3) -> f6
         let own = &patches.frames[patch];
         let corners = patches.corners().iter();
         let corners: Vec<_> = corners
-            .filter_map(|&corner| patches.controls(patch)[corner].solve())
+            .filter_map(|&corner| patches.nets[patch].control(corner).solve())
             .collect();
         for (_, missed) in samples {
             let missed = own.of_vertices(missed, centre);

@@ -4,6 +4,7 @@
 
 use super::SubdivisionScheme;
 use super::bezier::Slopes;
+use super::neighbourhoods::Kind;
 use super::tree::{CellPlace, Tree};
 use crate::root_bound::RootBound;
 
@@ -55,6 +56,7 @@ fn larger(a: Slopes, b: Slopes) -> Slopes {
 }
 
 /// A patch of a domain that a root touches.
+#[derive(Clone, Copy, Debug)]
 pub struct Touched {
     pub domain: usize,
     pub patch: u32,
@@ -91,12 +93,13 @@ pub fn touched(trees: &[Tree], scheme: SubdivisionScheme, corners: usize, root: 
 
 /// The bounds of the roots of a face, taken alone. `slopes` are those of a patch of a domain, in the parameters of the domain.
 pub fn of_roots(
-    trees: &[Tree],
+    kind: &Kind,
     scheme: SubdivisionScheme,
-    corners: usize,
     slopes: impl Fn(usize, u32, CellPlace) -> Slopes,
 ) -> Vec<RootBound> {
-    let domains: Vec<Vec<Slopes>> = trees
+    let corners = kind.touched.len();
+    let domains: Vec<Vec<Slopes>> = kind
+        .trees
         .iter()
         .enumerate()
         .map(|(domain, tree)| {
@@ -105,8 +108,7 @@ pub fn of_roots(
         })
         .collect();
     let of_root = |root: usize| {
-        let touched = touched(trees, scheme, corners, root);
-        let largest = touched.iter().fold(Slopes::default(), |largest, touched| {
+        let largest = kind.touched[root].iter().fold(Slopes::default(), |largest, touched| {
             let slopes = domains[touched.domain][touched.patch as usize];
             larger(largest, if touched.is_turned { turned(slopes) } else { slopes })
         });

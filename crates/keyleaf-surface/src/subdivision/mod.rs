@@ -215,7 +215,7 @@ impl Subdivision {
 
     /// Control points, normals and bounds of the present control mesh. The box and the error of terminal patches only grow.
     fn follow_cage(&mut self) {
-        let Evaluated { points, errors } = self.neighbourhoods.evaluate(&self.cage.positions);
+        let Evaluated { points, errors, .. } = self.neighbourhoods.evaluate(&self.cage.positions);
         let error = BETWEEN_SAMPLES * errors.iter().map(|(_, error)| error.length()).fold(0.0, f64::max);
         self.terminal_error = self.terminal_error.max(error);
         for patch in points.chunks_exact(self.neighbourhoods.control_points) {
@@ -310,16 +310,10 @@ impl Subdivision {
     fn root_bounds(&self) -> Vec<RootBound> {
         let topology = &self.topology;
         let of_face = |face: u32| {
-            let corners = topology.corner_count(face) as usize;
-            bound::of_roots(
-                self.neighbourhoods.trees(face),
-                self.scheme,
-                corners,
-                |domain, patch, place| {
-                    let points = approximation::patch_points(&self.neighbourhoods, &self.points, face, domain, patch);
-                    bound::in_domain(bezier::slopes(points), place)
-                },
-            )
+            bound::of_roots(self.neighbourhoods.kind(face), self.scheme, |domain, patch, place| {
+                let points = approximation::patch_points(&self.neighbourhoods, &self.points, face, domain, patch);
+                bound::in_domain(bezier::slopes(points), place)
+            })
         };
         RootBound::of_both_sides(topology, (0..topology.face_count()).flat_map(of_face).collect())
     }

@@ -1,6 +1,7 @@
 //! Faces by what their neighbourhood looks like: those that look alike share trees and weights.
 
 use super::SubdivisionScheme;
+use super::bound::{Touched, touched};
 use super::cage::{Cage, Placed};
 use super::ring::Ring;
 use super::shapes::{Shape, Shapes};
@@ -15,20 +16,24 @@ pub struct Kind {
     first_step: Option<Stencils>,
     /// One a domain.
     pub trees: Vec<Tree>,
+    /// By root, the patches that it touches.
+    pub touched: Vec<Vec<Touched>>,
 }
 
 impl Kind {
     fn new(ring: &Ring, grower: &mut Grower) -> Self {
-        let is_domain = grower.scheme != SubdivisionScheme::CatmullClark || ring.fans.len() == 4;
-        if is_domain {
-            return Self {
-                first_step: None,
-                trees: vec![grower.of_face(ring)],
-            };
-        }
-        let (points, trees) = grower.of_corners(ring);
+        let corners = ring.fans.len();
+        let is_domain = grower.scheme != SubdivisionScheme::CatmullClark || corners == 4;
+        let (first_step, trees) = if is_domain {
+            (None, vec![grower.of_face(ring)])
+        } else {
+            let (points, trees) = grower.of_corners(ring);
+            (Some(points), trees)
+        };
+        let touched = (0..corners).map(|root| touched(&trees, grower.scheme, corners, root));
         Self {
-            first_step: Some(points),
+            touched: touched.collect(),
+            first_step,
             trees,
         }
     }
@@ -102,24 +107,38 @@ impl Neighbourhoods {
         }
     }
 
+    /// The kind of a face.
+    pub fn kind(&self, face: u32) -> &Kind {
+        &self.kinds[self.faces[face as usize].kind as usize]
+    }
+
     /// The trees of a face.
     pub fn trees(&self, face: u32) -> &[Tree] {
-        &self.kinds[self.faces[face as usize].kind as usize].trees
+        &self.kind(face).trees
     }
 
     /// What the patches are for these values of the control vertices.
     pub fn evaluate<V: Vector>(&self, values: &[V]) -> Evaluated<V> {
-        let mut all = Evaluated {
-            points: Vec::with_capacity(self.entries),
-            errors: Vec::new(),
-        };
+        let mut all = Evaluated::nothing();
+        all.points.reserve_exact(self.entries);
+        self.evaluate_faces(values, &mut all, |_| ());
+        all
+    }
+
+    /// The same face by face: after each, `take` may take what there is.
+    pub fn evaluate_faces<V: Vector>(
+        &self,
+        values: &[V],
+        all: &mut Evaluated<V>,
+        mut take: impl FnMut(&mut Evaluated<V>),
+    ) {
         let mut ring = Vec::new();
         for face in &self.faces {
             ring.clear();
             ring.extend(face.vertices.iter().map(|&vertex| values[vertex as usize]));
-            self.evaluate_face(face.kind, &ring, &mut all);
+            self.evaluate_face(face.kind, &ring, all);
+            take(all);
         }
-        all
     }
 
     /// The control points of a kind as rows of weights of the vertices of the ring, which has `width`: those of a patch together, as
@@ -128,10 +147,7 @@ impl Neighbourhoods {
         let columns: Vec<Vec<f64>> = (0..width)
             .map(|vertex| {
                 let ring: Vec<f64> = (0..width).map(|k| if k == vertex { 1.0 } else { 0.0 }).collect();
-                let mut all = Evaluated {
-                    points: Vec::new(),
-                    errors: Vec::new(),
-                };
+                let mut all = Evaluated::nothing();
                 self.evaluate_face(kind, &ring, &mut all);
                 all.points
             })
@@ -143,7 +159,7 @@ impl Neighbourhoods {
     }
 
     fn evaluate_face<V: Vector>(&self, kind: u32, ring: &[V], all: &mut Evaluated<V>) {
-        let Kind { first_step, trees } = &self.kinds[kind as usize];
+        let Kind { first_step, trees, .. } = &self.kinds[kind as usize];
         let Some(first_step) = first_step else {
             trees
                 .iter()
@@ -173,7 +189,8 @@ impl Neighbourhoods {
                 }
             }
             (_, _, Some(patch)) => {
-                let number = (all.points.len() / self.control_points) as u32;
+                let number = all.patches;
+                all.patches += 1;
                 let mut controls = patch.controls.apply(&ring);
                 let first = controls.next().unwrap_or(V::ZERO);
                 all.points.push(origin.plus(first, 1.0));
@@ -195,4 +212,16 @@ pub struct Evaluated<V> {
     pub points: Vec<V>,
     /// At the samples of all terminal patches, with the number of the patch.
     pub errors: Vec<(u32, V)>,
+    /// How many there are.
+    patches: u32,
+}
+
+impl<V> Evaluated<V> {
+    pub fn nothing() -> Self {
+        Self {
+            points: Vec::new(),
+            errors: Vec::new(),
+            patches: 0,
+        }
+    }
 }

@@ -9,7 +9,6 @@
 //!   root, the word of a list relative to the record and its length; those lists, patches that the root touches, with bit 31 where
 //!   their parameters are the root's exchanged.
 
-use super::bound;
 use super::neighbourhoods::{Kind, Neighbourhoods};
 use super::{Subdivision, SubdivisionScheme};
 use crate::surface::uniform;
@@ -117,11 +116,10 @@ impl Kinds {
             rows: Vec::new(),
             rows_of: Vec::new(),
         };
-        let sizes = sizes_of_kinds(all, surface.topology());
-        for (number, (kind, [corners, width])) in (0..).zip(all.kinds.iter().zip(sizes)) {
+        for (number, (kind, width)) in (0..).zip(all.kinds.iter().zip(widths_of_kinds(all))) {
             kinds.records.push((first + kinds.words.len()) as u32);
             kinds.rows_of.push(kinds.rows.len() as u32);
-            kinds.words.extend(record(kind, surface.scheme, corners));
+            kinds.words.extend(record(kind));
             let rows = all.rows(number, width);
             kinds.rows.extend(rows.iter().map(|&weight| weight as f32));
         }
@@ -129,17 +127,18 @@ impl Kinds {
     }
 }
 
-/// How many corners the faces of each kind have, and how many vertices their rings.
-fn sizes_of_kinds(all: &Neighbourhoods, topology: &Topology) -> Vec<[usize; 2]> {
-    let mut sizes = vec![[0; 2]; all.kinds.len()];
-    for (number, face) in (0..).zip(&all.faces) {
-        sizes[face.kind as usize] = [topology.corner_count(number) as usize, face.vertices.len()];
+/// How many vertices the rings of faces of each kind have.
+fn widths_of_kinds(all: &Neighbourhoods) -> Vec<usize> {
+    let mut widths = vec![0; all.kinds.len()];
+    for face in &all.faces {
+        widths[face.kind as usize] = face.vertices.len();
     }
-    sizes
+    widths
 }
 
 /// The record of a kind.
-fn record(kind: &Kind, scheme: SubdivisionScheme, corners: usize) -> Vec<u32> {
+fn record(kind: &Kind) -> Vec<u32> {
+    let corners = kind.touched.len();
     let places = kind.trees.iter().flat_map(|tree| &tree.places);
     let mut words: Vec<u32> = places
         .map(|place| (1.0 / place.right[0].abs()) as f32)
@@ -151,7 +150,7 @@ fn record(kind: &Kind, scheme: SubdivisionScheme, corners: usize) -> Vec<u32> {
     }
     let lists: Vec<Vec<u32>> = (0..corners)
         .map(|root| {
-            let touched = bound::touched(&kind.trees, scheme, corners, root).into_iter();
+            let touched = kind.touched[root].iter();
             touched
                 .map(|touched| {
                     let patch = first_patch[touched.domain] + touched.patch;

@@ -281,7 +281,7 @@ fn whole_patches(
         .map(|(patch, (bounds, regions))| (share(bounds, regions), patch))
         .collect();
     order.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let mut parts = Vec::new();
+    let mut parts = Vec::with_capacity(patches.len());
     for (_, patch) in order {
         let own = &regions.of_patch[patch];
         let is_enough = |(bounds, is_near): (MeanBounds, bool)| {

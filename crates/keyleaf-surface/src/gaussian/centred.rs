@@ -138,7 +138,7 @@ impl<'a, S: Net> Centred<'a, S> {
         let least = if is_plain {
             1.0 - e
         } else {
-            eigenvalues.into_iter().fold(1.0, f64::min)
+            eigenvalues.into_iter().fold(1.0, f64::min).max(1.0 - e)
         };
         if least.is_nan() || least <= 0.0 {
             return None;

@@ -34,7 +34,7 @@ use crate::session::{self, DeviceReport};
 use anyhow::Context;
 use clap::{Args, ValueEnum};
 use glam::UVec2;
-use keyleaf::Morph;
+use keyleaf::{Morph, Pairs};
 use keyleaf_report::report::Report;
 use keyleaf_report::{html, svg, table};
 use keyleaf_stage::{Loaded, LoadedObject, view_of};
@@ -153,10 +153,12 @@ impl Shown {
     }
 }
 
-/// Opens a scene whose vertices lie on the surface: what morphing costs is a series of its own.
+/// Opens a scene whose vertices lie on the surface, and where only those leaves are pairs that must be: what morphing costs and what pairs
+/// save are series of their own.
 fn load_still(file: &Path, reading: &ReadingArguments, quiet: bool) -> anyhow::Result<Loaded> {
     let still = Overrides {
         morph: Some(Morph::None),
+        pairs: Some(Pairs::Forced),
         ..Overrides::default()
     };
     load_scene(file, reading, &still, quiet)

@@ -3,8 +3,11 @@
 //! Two boundaries join when degree, knots mapped to 0..=1 and homogeneous control points, up to a common factor of the weights, agree
 //! within the tolerance. Those that do not agree to the last digits are snapped, which takes control points of their own: clamped knots
 //! on both sides.
+//!
+//! Where knot spans are to be cut, the surfaces are joined before, so that the same boundaries join, and rounding is removed after it.
 
 use super::boundary::{BoundaryCurve, BoundaryPlace, Difference};
+use super::even_spans;
 use super::gap::along_each_other;
 use super::layout::{Layout, Side};
 use super::nurbs_surface::NurbsSurface;
@@ -34,6 +37,8 @@ pub struct Joined {
     pub layouts: Vec<Layout>,
     /// Whether each surface was transposed.
     pub transposed: Vec<bool>,
+    /// How often the knot spans of each surface were halved, in u and v as they were given.
+    pub halvings: Vec<[u32; 2]>,
     /// The half-edges that meet.
     pub pairs: Vec<[HalfEdge; 2]>,
     /// The farthest that the curves of a join are still apart, by knots and weights.
@@ -42,34 +47,43 @@ pub struct Joined {
     pub report: JoinReport,
 }
 
-/// Joins the boundaries of a model. The tolerance is relative to the diagonal of its box.
-pub fn join(mut surfaces: Vec<NurbsSurface>, tolerance: f64) -> Joined {
+/// Joins the boundaries of a model. The tolerance is relative to the diagonal of its box. With `even_spans`, knot spans are cut.
+pub fn join(mut surfaces: Vec<NurbsSurface>, tolerance: f64, even_spans: bool) -> Joined {
     let (low, high) = bounding_box(&surfaces);
     let tolerance = Tolerance {
         relative: tolerance,
         distance: tolerance * high.distance(low),
     };
-    let mut curves = boundaries(&surfaces);
-    let mut welds = Welds::new(&surfaces);
-    curves.retain(|curve| {
-        let is_collapsed = curve.is_collapsed(tolerance.distance);
-        if is_collapsed {
-            weld_to_point(&mut welds, curve);
-        }
-        !is_collapsed
-    });
-
+    let (mut collapsed, mut curves): (Vec<_>, Vec<_>) = boundaries(&surfaces)
+        .into_iter()
+        .partition(|curve| curve.is_collapsed(tolerance.distance));
     let (joins, crowded) = find_joins(&curves, tolerance);
     let surface_of = |boundary: usize| curves[boundary].place.surface;
     let (transposed, joins, dropped) = orient(surfaces.len(), joins, surface_of);
-    for join in &joins {
-        weld_curves(&mut welds, &mut surfaces, join, join.boundaries.map(|b| &curves[b]));
+    let unjoined = unjoined(&curves, &joins, &dropped, &crowded, &surfaces, high.distance(low));
+
+    let mut largest_move = weld(&mut surfaces, &collapsed, &curves, &joins);
+    let mut halvings = vec![[0; 2]; surfaces.len()];
+    if even_spans {
+        let direction = |b: usize| (curves[b].place.surface, curves[b].place.side.along());
+        let same = joins.iter().chain(&dropped).map(|join| join.boundaries.map(direction));
+        halvings = even_spans::halvings(&surfaces, same);
+        for (surface, &halvings) in surfaces.iter_mut().zip(&halvings) {
+            *surface = even_spans::cut(surface, halvings);
+        }
+        let layouts = Layout::of_model(&surfaces);
+        for curve in collapsed.iter_mut().chain(&mut curves) {
+            let number = curve.place.surface;
+            *curve = BoundaryCurve::new(&surfaces[number], &layouts[number], curve.place);
+        }
+        // What rounding took apart.
+        largest_move = largest_move.max(weld(&mut surfaces, &collapsed, &curves, &joins));
     }
     let report = JoinReport {
         exact: joins.iter().filter(|join| join.is_exact).count() as u32,
         snapped: joins.iter().filter(|join| !join.is_exact).count() as u32,
-        largest_move: welds.apply(&mut surfaces),
-        unjoined: unjoined(&curves, &joins, &dropped, &crowded, &surfaces, high.distance(low)),
+        largest_move,
+        unjoined,
         poles: Vec::new(),
         transposed: (0..).zip(&transposed).filter(|(_, is)| **is).map(|(s, _)| s).collect(),
     };
@@ -95,6 +109,7 @@ pub fn join(mut surfaces: Vec<NurbsSurface>, tolerance: f64) -> Joined {
         surfaces,
         layouts,
         transposed,
+        halvings,
         pairs,
         mismatch,
         report,
@@ -192,6 +207,18 @@ fn compare(a: &BoundaryCurve, b: &BoundaryCurve, tolerance: Tolerance) -> Option
 
 fn is_within(difference: Difference, tolerance: Tolerance) -> bool {
     difference.distance <= tolerance.distance && difference.relative <= tolerance.relative
+}
+
+/// Makes the control points of joined boundaries the same, and those of collapsed ones one. The farthest that one was moved.
+fn weld(surfaces: &mut [NurbsSurface], collapsed: &[BoundaryCurve], curves: &[BoundaryCurve], joins: &[Join]) -> f64 {
+    let mut welds = Welds::new(surfaces);
+    for curve in collapsed {
+        weld_to_point(&mut welds, curve);
+    }
+    for join in joins {
+        weld_curves(&mut welds, surfaces, join, join.boundaries.map(|b| &curves[b]));
+    }
+    welds.apply(surfaces)
 }
 
 /// Makes the control points of a collapsed boundary one.

@@ -15,6 +15,7 @@
 //! | `basis`, `evaluation`, `normal` | a point of a KSQuad |
 //! | `layout` | KSQuads, sides, tears |
 //! | `boundary`, `join`, `orientation`, `weld` | which boundaries are the same curve |
+//! | `even_spans`, `knot_insertion` | knot spans cut so that KSQuads become even |
 //! | `gap` | which lie along each other without being the same |
 //! | `addresses` | one address for every edge, corner and pole |
 //! | `bezier_net`, `bound`, `local_deviation`, `normal_cone` | bounds |
@@ -28,8 +29,10 @@ mod boundary;
 mod classes;
 mod error;
 mod evaluation;
+mod even_spans;
 mod gap;
 mod join;
+mod knot_insertion;
 mod layout;
 mod local_deviation;
 mod normal;
@@ -86,6 +89,10 @@ pub struct PatchSettings {
     pub tolerance: f64,
     /// What the surfaces are.
     pub kind: PatchKind,
+    /// Whether the knot spans of a direction of a surface are cut into 2, 4 or 8 equal parts where its KSQuads are long in that
+    /// direction, so that they take fewer triangles. No shape changes, and the same boundaries join; faces are those of the new KSQuads.
+    /// Not for [`PatchKind::Bezier`], whose surfaces stay single patches.
+    pub even_spans: bool,
 }
 
 impl Default for PatchSettings {
@@ -93,14 +100,16 @@ impl Default for PatchSettings {
         Self {
             tolerance: 1e-6,
             kind: PatchKind::Nurbs(BasisMethod::Triangular),
+            even_spans: false,
         }
     }
 }
 
 /// A model of Bézier or NURBS surfaces, joined where their boundaries are the same curve.
 ///
-/// Faces are the KSQuads of the surfaces, in order, row by row: v outside, u inside. Surfaces listed in [`JoinReport::transposed`]
-/// have u and v exchanged, so that neighbours have the same side up; [`Surface::own_coord`] knows. The sides of an edge, and all
+/// Faces are the KSQuads of the surfaces, cut if [`PatchSettings::even_spans`] says so, in order, row by row: v outside, u inside.
+/// Surfaces listed in [`JoinReport::transposed`] have u and v exchanged, so that neighbours have the same side up;
+/// [`Surface::own_coord`] knows. The sides of an edge, and all
 /// faces about a corner or a pole, take a point there from one of them.
 ///
 /// Where the weights of a corner vanish, so that the surface has no one point there, a point close by stands for it, and bounds are
@@ -130,6 +139,8 @@ pub struct Patches {
     surfaces: Vec<NurbsSurface>,
     layouts: Vec<Layout>,
     transposed: Vec<bool>,
+    /// How often knot spans were halved, by surface, in u and v as they were given.
+    halvings: Vec<[u32; 2]>,
     surface_of_face: Vec<u32>,
     topology: Topology,
     addresses: Addresses,
@@ -151,7 +162,11 @@ impl Patches {
     /// # Errors
     /// [`PatchError`] if there is none, one is not of the kind or too large, or the tolerance is out of range.
     pub fn new(surfaces: Vec<NurbsSurface>, settings: PatchSettings) -> Result<Self, PatchError> {
-        let PatchSettings { tolerance, kind } = settings;
+        let PatchSettings {
+            tolerance,
+            kind,
+            even_spans,
+        } = settings;
         let is_possible = (0.0..=LARGEST_TOLERANCE).contains(&tolerance);
         SettingError::check("tolerance", tolerance, is_possible, "a number from 0 to 0.01")?;
         check_surfaces(&surfaces, kind)?;
@@ -159,10 +174,12 @@ impl Patches {
             surfaces,
             layouts,
             transposed,
+            halvings,
             pairs,
             mismatch,
             report,
-        } = join::join(surfaces, tolerance);
+        } = join::join(surfaces, tolerance, even_spans && kind != PatchKind::Bezier);
+        check_counts(&surfaces)?;
         let face_count = layouts.iter().map(Layout::face_count);
         let surface_of_face: Vec<u32> = (0..)
             .zip(face_count)
@@ -190,6 +207,7 @@ impl Patches {
             surfaces,
             layouts,
             transposed,
+            halvings,
             surface_of_face,
             topology,
             addresses,
@@ -221,6 +239,12 @@ impl Patches {
     /// The surfaces as they are drawn: some transposed, with control points made equal where they join.
     pub fn surfaces(&self) -> &[NurbsSurface] {
         &self.surfaces
+    }
+
+    /// Into how many equal parts the knot spans of a surface were cut, in its own u and v: 1 or, with [`PatchSettings::even_spans`],
+    /// up to 8. Its KSQuads are that many times as many as there were.
+    pub fn parts_of_spans(&self, surface: u32) -> [u32; 2] {
+        self.halvings[surface as usize].map(|n| 1 << n)
     }
 
     /// The surface of a face, none if there is no such face.
@@ -296,13 +320,8 @@ fn check_surfaces(surfaces: &[NurbsSurface], kind: PatchKind) -> Result<(), Patc
     if surfaces.is_empty() {
         return Err(PatchError::Empty);
     }
-    let mut points = 0;
+    check_counts(surfaces)?;
     for (number, surface) in (0..).zip(surfaces) {
-        points += surface.points().len();
-        // Either row may become the one that is stored.
-        if points > MAX_POINTS || surface.point_counts().into_iter().any(|count| count > MAX_ROW) {
-            return Err(PatchError::TooManyPoints { surface: number });
-        }
         let is_bezier_span = surface.spans().iter().all(|spans| {
             let [span] = &spans[..] else { return false };
             span.is_clamped_at_start() && span.is_clamped_at_end()
@@ -310,6 +329,18 @@ fn check_surfaces(surfaces: &[NurbsSurface], kind: PatchKind) -> Result<(), Patc
         let [p, q] = surface.degree().map(|degree| degree as usize + 1);
         if kind == PatchKind::Bezier && !(is_bezier_span && surface.points().len() == p * q) {
             return Err(PatchError::NotBezier { surface: number });
+        }
+    }
+    Ok(())
+}
+
+fn check_counts(surfaces: &[NurbsSurface]) -> Result<(), PatchError> {
+    let mut points = 0;
+    for (number, surface) in (0..).zip(surfaces) {
+        points += surface.points().len();
+        // Either row may become the one that is stored.
+        if points > MAX_POINTS || surface.point_counts().into_iter().any(|count| count > MAX_ROW) {
+            return Err(PatchError::TooManyPoints { surface: number });
         }
     }
     Ok(())

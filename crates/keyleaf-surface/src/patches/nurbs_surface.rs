@@ -2,6 +2,7 @@
 
 use super::basis::BasisMethod;
 use super::evaluation::KsQuad;
+use super::knot_insertion;
 use super::span::{self, MAX_DEGREE, Span};
 use super::{PatchError, normal};
 use crate::{ParameterError, SurfaceFrame};
@@ -93,6 +94,24 @@ impl NurbsSurface {
             points: order().map(|index| self.points[index]).collect(),
             weights: order().map(|index| self.weights[index]).collect(),
         }
+    }
+
+    /// The same surface with more knots in u, which ascend and lie within spans of the domain.
+    pub(super) fn with_knots_u(&self, added: &[f64]) -> Self {
+        let controls: Vec<_> = (0..self.points.len()).map(|index| self.control(index)).collect();
+        let mut refined = Self {
+            degree: self.degree,
+            knots: self.knots.clone(),
+            points: Vec::new(),
+            weights: Vec::new(),
+        };
+        for row in controls.chunks(self.point_counts()[0]) {
+            let (knots, row) = knot_insertion::refine(self.degree[0] as usize, &self.knots[0], row, added);
+            refined.knots[0] = knots;
+            refined.points.extend(row.iter().map(|&(point, _)| point));
+            refined.weights.extend(row.iter().map(|&(_, weight)| weight));
+        }
+        refined
     }
 
     /// The degrees in u and v.

@@ -103,7 +103,14 @@ fn every_wrong_number_is_named() {
 #[test]
 fn models_that_are_none_are_refused() {
     let patch = || bilinear([[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]]);
-    let new = |surfaces, tolerance, kind| Patches::new(surfaces, PatchSettings { tolerance, kind }).map(|_| ());
+    let new = |surfaces, tolerance, kind| {
+        let settings = PatchSettings {
+            tolerance,
+            kind,
+            ..PatchSettings::default()
+        };
+        Patches::new(surfaces, settings).map(|_| ())
+    };
     assert_eq!(new(Vec::new(), 1e-6, PatchKind::Bezier), Err(PatchError::Empty));
     for tolerance in [f64::NAN, -1e-9, 0.02, f64::INFINITY] {
         let error = new(vec![patch()], tolerance, PatchKind::Bezier).expect_err("a tolerance");

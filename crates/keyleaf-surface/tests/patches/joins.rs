@@ -10,7 +10,7 @@ use keyleaf_surface::{NurbsSurface, PatchKind, PatchSettings, Patches, Side, Sur
 use std::collections::HashMap;
 
 /// Points of all mesh edges, by all their addresses: equal sites have equal bits, and so has everything about a pole.
-fn assert_same_bits(model: &Patches) {
+pub fn assert_same_bits(model: &Patches) {
     let mut random = Random(3);
     let mut known: HashMap<Site, DVec3> = HashMap::new();
     let parameters: Vec<u32> = (0..8).map(|_| random.below(ONE)).chain([0, ONE / 2, ONE]).collect();
@@ -31,7 +31,7 @@ fn assert_same_bits(model: &Patches) {
     }
 }
 
-fn is_closed(model: &Patches) -> bool {
+pub fn is_closed(model: &Patches) -> bool {
     model
         .topology()
         .roots()
@@ -170,7 +170,7 @@ fn a_strip_with_one_side_is_cut_and_reported() {
 }
 
 /// The squares of a bumpy grid, each turned by some of the eight symmetries.
-fn scrambled_grid(side: usize) -> Vec<NurbsSurface> {
+pub fn scrambled_grid(side: usize) -> Vec<NurbsSurface> {
     let mut random = Random(11);
     let height = |i: usize, j: usize| ((i * 7 + j * 13 + i * j) % 5) as f64 * 0.1;
     let mut surfaces = Vec::new();
@@ -217,6 +217,7 @@ fn with_tolerance(surfaces: Vec<NurbsSurface>, tolerance: f64) -> Patches {
     let settings = PatchSettings {
         tolerance,
         kind: PatchKind::Bezier,
+        ..PatchSettings::default()
     };
     Patches::new(surfaces, settings).expect("a model")
 }

@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod bounds;
+mod even_spans;
 mod hard_cases;
 mod joins;
 mod models;

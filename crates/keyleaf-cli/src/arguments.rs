@@ -29,6 +29,9 @@ pub struct ReadingArguments {
     /// Draw trimmed NURBS surfaces of a file whole, that is opened directly; else they are refused
     #[arg(long)]
     pub ignore_trims: bool,
+    /// Cut the knot spans of NURBS surfaces of a file that is opened directly where knot-span quads are long and narrow
+    #[arg(long)]
+    pub even_spans: bool,
     /// What a model of polygons that is opened directly is drawn as: flat, catmull-clark, loop, qas, pn or gaussian-product
     #[arg(long, value_name = "SHAPE")]
     pub surface: Option<ShapeName>,
@@ -121,6 +124,7 @@ pub fn load_scene(
     let options = LoadOptions {
         raw_size: reading.raw_size.map(|size| size.to_array()),
         ignore_trims: reading.ignore_trims,
+        even_spans: reading.even_spans,
         z_up: reading.up == Up::Z,
         shape: reading.surface,
     };

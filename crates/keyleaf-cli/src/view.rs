@@ -65,6 +65,7 @@ pub fn run(arguments: &Arguments, started: Instant) -> anyhow::Result<Outcome> {
         reading: LoadOptions {
             raw_size: reading.raw_size.map(|size| size.to_array()),
             ignore_trims: reading.ignore_trims,
+            even_spans: reading.even_spans,
             z_up: reading.up == Up::Z,
             shape: reading.surface,
         },

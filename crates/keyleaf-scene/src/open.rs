@@ -32,6 +32,8 @@ pub struct OpenOptions {
     pub raw_size: Option<[u32; 2]>,
     /// Trimmed NURBS surfaces are drawn whole; else they are refused.
     pub ignore_trims: bool,
+    /// Knot spans of NURBS surfaces are cut so that knot-span quads become even ([`PatchesSource::even_spans`]).
+    pub even_spans: bool,
     /// Z is up in the file: it is turned by -90 degrees about X.
     pub z_up: bool,
     /// The kind of surface that a model of polygons is the control mesh of; `None`: its polygons are drawn.
@@ -282,6 +284,7 @@ fn source_of(name: String, opened: Opened, options: &OpenOptions) -> Source {
         Opened::Model => Source::Mesh(name),
         Opened::Patches => Source::Patches(PatchesSource {
             ignore_trims: options.ignore_trims,
+            even_spans: options.even_spans,
             ..PatchesSource::new(name)
         }),
         Opened::HeightMap => Source::HeightField(HeightFieldSource {

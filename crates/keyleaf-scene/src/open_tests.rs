@@ -328,3 +328,42 @@ fn scene_with_patches_is_loaded() {
     );
     std::fs::remove_dir_all(folder).unwrap();
 }
+
+const LONG_SHEET: &str =
+    "Nurbs(even_spans: EVEN, surfaces: [(degree: (1, 1), points: [[(0, 0, 0), (1, 0, 0)], [(0, 8, 0), (1, 8, 0)]])])";
+
+#[test]
+fn knot_spans_are_cut_on_request_and_a_note_says_so() {
+    let folder = folder("even-spans", "");
+    let faces_and_notes = |source: &str| {
+        let scene = format!("(surfaces: [(name: \"a\", source: {source})])");
+        std::fs::write(folder.join("scene.ron"), scene).unwrap();
+        let opened = open_in(&folder, "scene.ron").unwrap();
+        let notes: Vec<String> = opened.notes.into_iter().map(|note| note.text).collect();
+        (opened.surfaces[0].surface.topology().face_count(), notes.join("\n"))
+    };
+    let (faces, notes) = faces_and_notes(&LONG_SHEET.replace("EVEN", "false"));
+    assert!(faces == 1 && !notes.contains("quads"), "{notes}");
+    let (faces, notes) = faces_and_notes(&LONG_SHEET.replace("EVEN", "true"));
+    assert_eq!(faces, 8);
+    let expected = "knot-span quads: 8, of 1 before knot spans were cut to make them even, in 1 surfaces";
+    assert!(notes.contains(expected), "{notes}");
+
+    // Single Bézier patches stay so, unless a basis makes them NURBS surfaces.
+    let long = "1\n1 1\n0 0 0\n0 9 0\n1 0 0\n1 9 0\n";
+    std::fs::write(folder.join("long.bpt"), long).unwrap();
+    let (faces, notes) = faces_and_notes("Patches(path: \"long.bpt\", even_spans: true)");
+    assert!(
+        faces == 1 && notes.contains("even_spans has no effect on single Bézier patches"),
+        "{notes}"
+    );
+    let (faces, _) = faces_and_notes("Patches(path: \"long.bpt\", basis: Triangular, even_spans: true)");
+    assert_eq!(faces, 8);
+    let options = OpenOptions {
+        even_spans: true,
+        ..OpenOptions::default()
+    };
+    let opened = open(&folder.join("long.bpt"), &options).unwrap();
+    assert!(matches!(&opened.scene.surfaces[0].source, Source::Patches(p) if p.even_spans));
+    std::fs::remove_dir_all(folder).unwrap();
+}

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use keyleaf_surface::{BasisMethod, JoinReport, NurbsSurface, PatchKind, PatchSettings, Patches, Unjoined};
+use keyleaf_surface::{BasisMethod, JoinReport, NurbsSurface, PatchKind, PatchSettings, Patches, Surface, Unjoined};
 
 use crate::error::{FilePlace, ImportError};
 use crate::note::Note;
@@ -23,7 +23,12 @@ pub(crate) fn of_file(folder: &Path, source: &PatchesSource, notes: &mut Vec<Not
         None if model.is_bezier => PatchKind::Bezier,
         basis => PatchKind::Nurbs(basis.unwrap_or_default().into()),
     };
-    let mut made = join(&file, model.surfaces, source.tolerance, kind, notes)?;
+    let settings = PatchSettings {
+        tolerance: source.tolerance,
+        kind,
+        even_spans: source.even_spans,
+    };
+    let mut made = join(&file, model.surfaces, settings, notes)?;
     made.files.push(file);
     Ok(made)
 }
@@ -31,20 +36,23 @@ pub(crate) fn of_file(folder: &Path, source: &PatchesSource, notes: &mut Vec<Not
 /// NURBS surfaces of the scene file `file`.
 pub(crate) fn of_nurbs(file: &Path, source: &NurbsSource, notes: &mut Vec<Note>) -> Result<Made, Failure> {
     let surfaces = source.surfaces.iter().map(|patch| patch.surface());
-    let kind = PatchKind::Nurbs(BasisMethod::from(source.basis));
-    join(file, written(file, surfaces)?, source.tolerance, kind, notes)
+    let settings = PatchSettings {
+        tolerance: source.tolerance,
+        kind: PatchKind::Nurbs(BasisMethod::from(source.basis)),
+        even_spans: source.even_spans,
+    };
+    join(file, written(file, surfaces)?, settings, notes)
 }
 
 /// Bézier patches of the scene file `file`.
 pub(crate) fn of_bezier(file: &Path, source: &BezierSource, notes: &mut Vec<Note>) -> Result<Made, Failure> {
     let surfaces = source.patches.iter().map(|rows| bezier_surface(rows));
-    join(
-        file,
-        written(file, surfaces)?,
-        source.tolerance,
-        PatchKind::Bezier,
-        notes,
-    )
+    let settings = PatchSettings {
+        tolerance: source.tolerance,
+        kind: PatchKind::Bezier,
+        even_spans: false,
+    };
+    join(file, written(file, surfaces)?, settings, notes)
 }
 
 /// What validation has accepted.
@@ -62,16 +70,35 @@ fn written(
 fn join(
     file: &Path,
     surfaces: Vec<NurbsSurface>,
-    tolerance: f64,
-    kind: PatchKind,
+    settings: PatchSettings,
     notes: &mut Vec<Note>,
 ) -> Result<Made, Failure> {
-    let patches = Patches::new(surfaces, PatchSettings { tolerance, kind });
+    let patches = Patches::new(surfaces, settings);
     let patches = patches
         .map_err(|error| ImportError::malformed(file, FilePlace::Whole, error.to_string()))
         .map_err(Failure::of("source"))?;
     tell(file, patches.report(), notes);
+    if settings.even_spans {
+        notes.push(Note::remark(file, cuts(&patches, settings.kind)));
+    }
     Ok(Made::new(Arc::new(patches)))
+}
+
+/// What became of the knot spans of a model that wished them even.
+fn cuts(patches: &Patches, kind: PatchKind) -> String {
+    if kind == PatchKind::Bezier {
+        return "even_spans has no effect on single Bézier patches; with a basis they are NURBS surfaces".to_owned();
+    }
+    let surfaces = 0..patches.surfaces().len() as u32;
+    let parts = |surface: u32| patches.parts_of_spans(surface).into_iter().product::<u32>();
+    let cut = surfaces.clone().filter(|&surface| parts(surface) > 1).count();
+    let quads = |surface: u32| {
+        let [u, v] = patches.knots_of(surface).map(|knots| knots.len() as u32 - 1);
+        u * v
+    };
+    let before: u32 = surfaces.map(|surface| quads(surface) / parts(surface)).sum();
+    let now = patches.topology().face_count();
+    format!("knot-span quads: {now}, of {before} before knot spans were cut to make them even, in {cut} surfaces")
 }
 
 /// Notes about the joins.

@@ -133,7 +133,11 @@ fn shared(name: &str) -> Option<(PatchModel, Patches)> {
     } else {
         PatchKind::Nurbs(keyleaf_surface::BasisMethod::Triangular)
     };
-    let settings = PatchSettings { tolerance: 1e-6, kind };
+    let settings = PatchSettings {
+        tolerance: 1e-6,
+        kind,
+        even_spans: false,
+    };
     let patches = Patches::new(model.surfaces.clone(), settings).unwrap();
     let report = patches.report();
     let count = |why| report.unjoined.iter().filter(|(_, reason)| *reason == why).count();
@@ -179,6 +183,66 @@ fn shared_nurbs_load_and_join() {
     }
     if let Some((model, _)) = shared("nurbs/v5_teapot.obj") {
         assert_eq!(model.surfaces.len(), 97);
+    }
+}
+
+/// √(|vv| / |uu|) of the second differences of all knot-span quads, and √(|v|² / |u|²) of the differences, by own u and v.
+fn ratios(patches: &Patches) -> [f64; 2] {
+    let steps = |face: u32, own_axis: usize| {
+        let is_transposed = patches.report().transposed.contains(&patches.surface_of(face).unwrap());
+        let axis = own_axis ^ usize::from(is_transposed);
+        let [first, middle, last] = [0.0, 0.5, 1.0].map(|t| {
+            let [u, v] = if axis == 0 { [t, 0.5] } else { [0.5, t] };
+            patches.point(patches.face_coord(face, u, v).unwrap())
+        });
+        [(first - 2.0 * middle + last).length(), (last - first).length_squared()]
+    };
+    let sum = |order: usize, axis: usize| -> f64 {
+        let faces = 0..patches.topology().face_count();
+        faces.map(|face| steps(face, axis)[order]).sum()
+    };
+    [0, 1].map(|order| (sum(order, 1) / sum(order, 0)).sqrt())
+}
+
+#[test]
+fn long_quads_of_files_become_even_and_the_same_boundaries_join() {
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes");
+    let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data/nurbs");
+    for (file, joined) in [
+        (scenes.join("panels.obj"), Some(12)),
+        (scenes.join("goblet.obj"), None),
+        (shared.join("v2_Speeder.obj"), Some(2)),
+        (shared.join("v2_HumanHead1.obj"), None),
+        (shared.join("v2_UntrimmedSurfaces.obj"), None),
+        (shared.join("v5_teapot.obj"), None),
+    ] {
+        let Ok(model) = read_patches(&file, &PatchFileOptions { ignore_trims: true }) else {
+            println!("skipped: {} is not there", file.display());
+            continue;
+        };
+        let [before, after] = [false, true].map(|even_spans| {
+            let settings = PatchSettings {
+                even_spans,
+                ..PatchSettings::default()
+            };
+            Patches::new(model.surfaces.clone(), settings).unwrap()
+        });
+        let name = file.file_name().unwrap().to_string_lossy().into_owned();
+        let faces = [&before, &after].map(|patches| patches.topology().face_count());
+        println!(
+            "{name}: faces {faces:?}, ratios {:.2?}, then {:.2?}",
+            ratios(&before),
+            ratios(&after),
+        );
+        let joins = [&before, &after].map(|patches| patches.report().exact + patches.report().snapped);
+        assert_eq!(joins[0], joins[1], "{name}");
+        assert!(joined.is_none_or(|joined| joined == joins[0]), "{name}: {joins:?}");
+        assert_eq!(before.report().unjoined, after.report().unjoined, "{name}");
+        assert!(faces[1] >= faces[0], "{name}");
+        if name.contains("Speeder") {
+            let [was, is] = [&before, &after].map(|patches| ratios(patches)[0].log2().abs());
+            assert!(faces[1] > faces[0] && is <= 0.5 && is < was, "{was} {is}");
+        }
     }
 }
 

@@ -22,6 +22,11 @@ pub struct PatchesSource {
     /// Whether trimmed surfaces are drawn whole; else they are refused. Default false.
     #[serde(default)]
     pub ignore_trims: bool,
+    /// Whether knot spans are cut into 2, 4 or 8 equal parts where knot-span quads are long and narrow, so that they take fewer
+    /// triangles; the shape and the joins stay, and faces are numbered by the new quads. Not for single Bézier patches without `basis`.
+    /// Default false.
+    #[serde(default)]
+    pub even_spans: bool,
 }
 
 impl PatchesSource {
@@ -32,6 +37,7 @@ impl PatchesSource {
             tolerance: tolerance(),
             basis: None,
             ignore_trims: false,
+            even_spans: false,
         }
     }
 }
@@ -48,6 +54,9 @@ pub struct NurbsSource {
     /// How basis functions are computed; default `Triangular`.
     #[serde(default)]
     pub basis: Basis,
+    /// See [`PatchesSource::even_spans`]; default false.
+    #[serde(default)]
+    pub even_spans: bool,
 }
 
 /// One NURBS surface.

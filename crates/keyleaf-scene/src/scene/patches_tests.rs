@@ -5,7 +5,7 @@ use super::*;
 /// A file, a NURBS surface with all fields, one with few, and a rational Bézier patch.
 const FULL: &str = r#"(
     surfaces: [
-        (name: "pot", source: Patches(path: "teapot", tolerance: 1e-5, basis: Stair, ignore_trims: true)),
+        (name: "pot", source: Patches(path: "teapot", tolerance: 1e-5, basis: Stair, ignore_trims: true, even_spans: true)),
         (name: "sheet", source: Nurbs(
             surfaces: [
                 (
@@ -20,6 +20,7 @@ const FULL: &str = r#"(
                 (degree: (1, 1), points: [[(0, 0, 0), (1, 0, 0), (2, 0, 1)], [(0, 1, 0), (1, 1, 0), (2, 1, 1)]]),
             ],
             basis: DeBoor,
+            even_spans: true,
         )),
         (name: "wall", source: Bezier(
             patches: [
@@ -49,10 +50,14 @@ fn every_field_is_read_and_written_back() {
         tolerance: 1e-5,
         basis: Some(Basis::Stair),
         ignore_trims: true,
+        even_spans: true,
     };
     assert_eq!(file.source, Source::Patches(expected));
     let Source::Nurbs(nurbs) = &nurbs.source else { panic!() };
-    assert_eq!((nurbs.basis, nurbs.tolerance), (Basis::DeBoor, 1e-6));
+    assert_eq!(
+        (nurbs.basis, nurbs.tolerance, nurbs.even_spans),
+        (Basis::DeBoor, 1e-6, true)
+    );
     assert_eq!(nurbs.surfaces[0].points[1][1].weight, 0.5);
     let surface = nurbs.surfaces[0].surface().unwrap();
     assert_eq!(surface.point_counts(), [4, 2]);
@@ -128,6 +133,11 @@ fn values_out_of_range_tell_line_and_field() {
         &["unknown field `trims`, expected one of `path`, `tolerance`"],
     );
     check(
+        "even_spans: true",
+        "even_spans: 2",
+        &["s.ron:3:", "surfaces[0].source.even_spans"],
+    );
+    check(
         "degree: (2, 1)",
         "degree: (8, 1)",
         &[
@@ -197,7 +207,7 @@ fn values_out_of_range_tell_line_and_field() {
     check(
         "[[(1, 0, 0), (1, 1, 0, 0.70710678), (0, 1, 0)], [",
         "[[",
-        &["s.ron:21:", "surfaces[2].source.patches[0]: the degree in v is 0"],
+        &["s.ron:22:", "surfaces[2].source.patches[0]: the degree in v is 0"],
     );
     check(
         "(0, 1, 1)]]",
@@ -214,14 +224,17 @@ fn values_out_of_range_tell_line_and_field() {
 #[test]
 fn patches_are_neither_displaced_nor_textured() {
     let displaced = broken(
-        "ignore_trims: true)",
+        "ignore_trims: true, even_spans: true)",
         "), surface: Displaced(height: Noise(amplitude: 1, wavelength: 1))",
     );
     assert!(
         displaced.contains("surfaces[0].surface: only a Mesh can be Displaced"),
         "{displaced}"
     );
-    let textured = broken("ignore_trims: true)", "), material: (texture: \"a.png\")");
+    let textured = broken(
+        "ignore_trims: true, even_spans: true)",
+        "), material: (texture: \"a.png\")",
+    );
     assert!(
         textured.contains("surfaces[0].material.texture: Bézier and NURBS surfaces have no texture"),
         "{textured}"

@@ -7,9 +7,9 @@
 //! parts, a KSQuad has uu k + vv / k, which is least, 2 √(uu vv), where k is the *ratio* r = √(vv / uu); as it is it has (r + 1/r) / 2
 //! times as many. The mixed derivative has the same part in all.
 //!
-//! So the ratio is that of second derivatives, which are what deviation goes by, averaged over the KSQuads of a surface. In a direction
-//! that is flat any length would do; such a surface goes by its lengths, for which drawn edges have the same formula, with the squares
-//! of first derivatives.
+//! So the ratio is that of second derivatives, which are what deviation goes by, averaged over the KSQuads of a surface. A surface that
+//! is flat in a direction would have KSQuads as long there as can be; it goes by lengths, for which the number of leaves with short
+//! edges has the same formula, with the squares of first derivatives. Where it is curved in the other direction, only that one is cut.
 //!
 //! # Practice
 //!
@@ -118,9 +118,14 @@ impl Shape {
                 area += du.length() * dv.length();
             }
         }
-        let is_flat = (0..2).any(|axis| second[axis] <= FLAT * first[axis]);
-        let [u, v] = if is_flat { squares } else { second };
-        let log_ratio = 0.5 * (v / u).log2();
+        let log2 = |[u, v]: [f64; 2]| 0.5 * (v / u).log2();
+        let log_ratio = match [0, 1].map(|axis| second[axis] <= FLAT * first[axis]) {
+            [false, false] => log2(second),
+            [true, true] => log2(squares),
+            // Only the curved direction is cut.
+            [true, false] => log2(squares).max(0.0),
+            [false, true] => log2(squares).min(0.0),
+        };
         let is_known = log_ratio.is_finite() && f64::is_finite(area);
         Self {
             log_ratio: if is_known { log_ratio } else { 0.0 },

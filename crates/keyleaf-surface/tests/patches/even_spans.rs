@@ -179,6 +179,17 @@ fn flat_surfaces_go_by_lengths_and_joined_ones_are_cut_alike() {
 }
 
 #[test]
+fn only_the_curved_direction_of_a_ruled_surface_is_cut() {
+    let arch = |width: f64, height: f64| {
+        let at = |i: usize, j: usize| DVec3::new(i as f64 * width, j as f64 * height, [0.0, 0.5, 0.0][i]);
+        let points = (0..6).map(|k| at(k % 3, k / 3)).collect();
+        let surface = NurbsSurface::bezier([2, 1], points, vec![1.0; 6]).expect("a patch");
+        even(vec![surface]).parts_of_spans(0)
+    };
+    assert_eq!((arch(0.5, 20.0), arch(4.0, 1.0)), ([1, 1], [8, 1]));
+}
+
+#[test]
 fn a_surface_joined_with_itself_at_both_parameters_is_left_whole() {
     let point = |i: usize, j: usize| match (i, j) {
         (k, 0) | (0, k) => DVec3::new(k as f64, 0.0, 0.0),

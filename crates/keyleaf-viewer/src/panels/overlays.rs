@@ -119,7 +119,7 @@ fn legend(viewer: &Viewer, painter: &Painter) {
         }
         Tint::Level => level_legend(viewer, painter, at),
         Tint::Pairs => {
-            let text = "red: pairs, drawn as one triangle beside a coarser leaf";
+            let text = "red: pairs, two leaves drawn as one triangle";
             label(painter, at, Align2::LEFT_BOTTOM, text, INK);
         }
         Tint::Wish => {

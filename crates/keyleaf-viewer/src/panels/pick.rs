@@ -37,7 +37,7 @@ pub fn show(viewer: &mut Viewer, ui: &mut Ui) {
         let pair = if picked.is_pair { "yes" } else { "no" };
         row(
             "pair",
-            "drawn as one triangle with its other half, beside a coarser leaf",
+            "drawn as one triangle with its other half: beside a coarser leaf, or where the threshold allows",
             RichText::new(pair),
         );
         row(

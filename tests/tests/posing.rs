@@ -27,15 +27,15 @@ fn moving() -> Settings {
 /// A surface that follows from the vertices of its control mesh.
 #[derive(Clone)]
 enum Moving {
-    Subdivision(Subdivision),
-    Triangles(TrianglePatches),
+    Subdivision(Arc<Subdivision>),
+    Triangles(Arc<TrianglePatches>),
 }
 
 impl Moving {
     fn surface(&self) -> Arc<dyn Surface> {
         match self {
-            Self::Subdivision(surface) => Arc::new(surface.clone()),
-            Self::Triangles(surface) => Arc::new(surface.clone()),
+            Self::Subdivision(surface) => surface.clone(),
+            Self::Triangles(surface) => surface.clone(),
         }
     }
 
@@ -48,8 +48,10 @@ impl Moving {
 
     fn posed(&self, positions: &[DVec3]) -> Self {
         match self {
-            Self::Subdivision(surface) => Self::Subdivision(surface.posed(positions).expect("finite positions")),
-            Self::Triangles(surface) => Self::Triangles(surface.posed(positions).expect("finite positions")),
+            Self::Subdivision(surface) => {
+                Self::Subdivision(Arc::new(surface.posed(positions).expect("finite positions")))
+            }
+            Self::Triangles(surface) => Self::Triangles(Arc::new(surface.posed(positions).expect("finite positions"))),
         }
     }
 
@@ -102,7 +104,7 @@ fn subdivisions() -> Vec<(&'static str, Moving)> {
             });
         }
         let surface = Subdivision::new(&control, SubdivisionSettings { scheme, isolation: 5 });
-        Moving::Subdivision(surface.expect("a subdivision surface"))
+        Moving::Subdivision(Arc::new(surface.expect("a subdivision surface")))
     };
     let (quads, triangles) = (
         SubdivisionScheme::CatmullClark,
@@ -185,7 +187,7 @@ fn triangle_patches() -> Vec<(String, Moving)> {
         all.extend(made.map(|(kind, surface)| {
             (
                 format!("{kind} of {name}"),
-                Moving::Triangles(surface.expect("triangles")),
+                Moving::Triangles(Arc::new(surface.expect("triangles"))),
             )
         }));
     }

@@ -42,7 +42,7 @@ fn snapshot(topology: &Topology, places: &[Place]) -> Snapshot {
     let is_pair = |p: &Place| across_outer_leg(topology, *p).is_some_and(|c| there.contains(&c));
     let is_free =
         |p: &Place| about_right_angle(topology, *p).is_some_and(|nodes| nodes.iter().all(|node| there.contains(node)));
-    let flags = |p: &Place| u32::from(is_pair(p)) * state::PAIR | u32::from(is_free(p)) * state::FREE;
+    let flags = |p: &Place| (u32::from(is_pair(p)) * state::PAIR) | (u32::from(is_free(p)) * state::FREE);
     let word = |p: &Place| flags(p) | p.digit().unwrap_or(state::ROOT_DIGIT) << state::DIGIT_SHIFT;
     let odd_half = |p: &Place| is_pair(p) && p.digit().is_some_and(|d| d & 1 == 1);
     let visible: Vec<u32> = (0..places.len() as u32)

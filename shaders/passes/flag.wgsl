@@ -21,46 +21,40 @@ fn set_flags(slot: u32, flags: u32) {
     }
 }
 
-// The leaves about the middle of a leg: of the node that has it as its X leg, children 2 and 3, and of the other one, 0 and 1.
-fn flag_about(with_x: Place, with_y: Place) {
-    var slots: array<u32, 4>;
-    var are_leaves = 0u;
-    for (var digit = 0u; digit < 4u; digit++) {
-        var node = with_y;
-        if digit >= 2u {
-            node = with_x;
+// About a leg of a node that changed: `own` are its children along that leg, or NONE if it is a leaf now; `digits` say which children of
+// the node across lie along it.
+fn flag_leg(own: vec2u, across: Place, digits: vec2u) {
+    var others = vec2u(NONE);
+    var flags = PAIR;
+    if find_leaf(across) == NONE {
+        others = vec2u(find_leaf(place_child(across, digits.x)), find_leaf(place_child(across, digits.y)));
+        if all(own != vec2u(NONE)) {
+            flags = select(0u, FREE, all(others != vec2u(NONE)));
         }
-        slots[digit] = find_leaf(place_child(node, digit));
-        are_leaves += select(0u, 1u, slots[digit] != NONE);
     }
-    if are_leaves == 0u {
-        return;
-    }
-    let are_blocked = find_leaf(with_x) != NONE || find_leaf(with_y) != NONE;
-    let flags = select(select(0u, FREE, are_leaves == 4u), PAIR, are_blocked);
-    for (var digit = 0u; digit < 4u; digit++) {
-        set_flags(slots[digit], flags);
-    }
+    set_flags(own.x, flags);
+    set_flags(own.y, flags);
+    set_flags(others.x, flags);
+    set_flags(others.y, flags);
 }
 
-const BESIDE: u32 = 2u;
-
-// About leg X (0) or Y (1) of a node, or the one that it shares with its parent (BESIDE).
-fn flag_leg(node: Place, leg: u32) {
-    var shares = node;
-    var is_x = leg == 0u;
-    if leg == BESIDE {
-        let digit = place_digit(node);
-        shares = place_parent(node, digit);
-        is_x = digit >= 2u;
+// About the leg that a node shares with its parent; `slot` is NONE if the node is split.
+fn flag_beside(node: Place, slot: u32) {
+    let digit = place_digit(node);
+    let across = across_outer_leg(node, digit);
+    if slot != NONE && find_leaf(across) != NONE {
+        set_flags(slot, PAIR);
+        return;
     }
-    var with_x = shares;
-    var with_y = neighbour_x(shares);
-    if !is_x {
-        with_x = neighbour_y(shares);
-        with_y = shares;
-    }
-    flag_about(with_x, with_y);
+    let side = digit & 2u;
+    let sibling = find_leaf(place_child(place_parent(node, digit), digit ^ 1u));
+    let others = vec2u(find_leaf(place_child(across, 2u - side)), find_leaf(place_child(across, 3u - side)));
+    let are_leaves = slot != NONE && sibling != NONE && all(others != vec2u(NONE));
+    let flags = select(0u, FREE, are_leaves);
+    set_flags(slot, flags);
+    set_flags(sibling, flags);
+    set_flags(others.x, flags);
+    set_flags(others.y, flags);
 }
 
 @compute @workgroup_size(64)
@@ -72,13 +66,17 @@ fn flag(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     let word = 2u * frame.capacity + 4u * index;
     let was_split = lists[word + 1u] != NONE;
     var node = leaf_place(leaves[lists[word]]);
+    var slot = lists[word];
+    var children = vec4u(NONE);
     if was_split {
         node = place_parent(node, 0u);
+        children = vec4u(slot, lists[word + 1u], lists[word + 2u], lists[word + 3u]);
+        slot = NONE;
     }
-    let first = select(0u, BESIDE, node.level == MAX_LEVEL);
-    let end = select(BESIDE + 1u, BESIDE, node.level == 0u);
-    for (var leg = first; leg < end; leg++) {
-        flag_leg(node, leg);
+    flag_leg(children.zw, neighbour_x(node), vec2u(0u, 1u));
+    flag_leg(children.xy, neighbour_y(node), vec2u(2u, 3u));
+    if node.level > 0u {
+        flag_beside(node, slot);
     }
 }
 
@@ -91,6 +89,6 @@ fn flag_all(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups
     }
     let node = leaf_place(leaves[slot]);
     if node.level > 0u {
-        flag_leg(node, BESIDE);
+        flag_beside(node, slot);
     }
 }

@@ -104,11 +104,12 @@ fn publish(slot: u32, t: Terms) -> u32 {
     let mature = (before & FRESH) == 0u;
     let merges = mature && publishes_merge(digit)
         && wish(parent.xyz, distance_of(parent.xyz, t), measure.parent_size, parent.w, t) <= 1.0;
-    let is_pair = is_drawn_as_pair(slot, before, t);
-    state[slot] = state_from_wish(wanted) | (before & (FREE | (7u << DIGIT_SHIFT)))
-        | select(0u, MATURE, mature) | select(0u, MERGE, merges) | select(0u, PAIR, is_pair);
+    let flags = pair_flags(slot, before, t);
+    state[slot] = state_from_wish(wanted) | (before & (7u << DIGIT_SHIFT)) | flags
+        | select(0u, MATURE, mature) | select(0u, MERGE, merges);
 
     // The odd half of a pair is not drawn: the even one takes its place, and reaches as far as their parent.
+    let is_pair = (flags & PAIR) != 0u;
     let hidden = is_pair && (digit & 1u) == 1u;
     var seen = select(vec4f(centre, measure.radius), vec4f(parent.xyz, measure.parent_radius), is_pair);
     seen.w += t.slack * distance;

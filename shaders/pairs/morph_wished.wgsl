@@ -1,5 +1,5 @@
 // Of the vertices that only pairs leave out: drawn where the leaves on both sides of the leg do without pairs.
-// requires: shared/place.wgsl, shared/neighbour.wgsl
+// requires: pairs/about_leg.wgsl
 
 // `leaf` has its right angle in the square of the vertex, and the vertex is on a leg of the triangle of the next coarser grid.
 fn size_between_pairs(leaf: Place, at: FaceCoord, size: f32) -> f32 {
@@ -16,16 +16,6 @@ fn size_between_pairs(leaf: Place, at: FaceCoord, size: f32) -> f32 {
         a = u - a;
         b = u - b;
     }
-    let is_x = a > b;
-    var even = place_child(node, select(0u, 2u, is_x));
-    var largest = 0.0;
-    for (var i = 0u; i < 2u; i++) {
-        largest = max(largest, pair_size(even));
-        var across = neighbour_y(node);
-        if is_x {
-            across = neighbour_x(node);
-        }
-        even = place_child(across, select(2u, 0u, is_x));
-    }
-    return min(size, largest);
+    let digit = select(0u, 2u, a > b);
+    return min(size, larger_pair(place_child(node, digit), digit));
 }

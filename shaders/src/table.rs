@@ -93,6 +93,7 @@ pub const FILES: &[(&str, &str)] = &[
     ("metrics/local_area.wgsl", include_str!("../metrics/local_area.wgsl")),
     ("morph/geomorph.wgsl", include_str!("../morph/geomorph.wgsl")),
     ("morph/none.wgsl", include_str!("../morph/none.wgsl")),
+    ("pairs/about_leg.wgsl", include_str!("../pairs/about_leg.wgsl")),
     ("pairs/deviation.wgsl", include_str!("../pairs/deviation.wgsl")),
     ("pairs/morph_forced.wgsl", include_str!("../pairs/morph_forced.wgsl")),
     ("pairs/morph_wished.wgsl", include_str!("../pairs/morph_wished.wgsl")),

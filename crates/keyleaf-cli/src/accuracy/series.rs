@@ -153,24 +153,19 @@ pub fn all(loaded: &Loaded, quick: bool) -> Vec<Series> {
             pixels(&DEVIATIONS, |pixels| Metric::Deviation { pixels }),
         ));
     }
+    let edges_with = |change: fn(&mut Settings)| -> Vec<(String, Loaded)> {
+        let edges = pixels(&EDGES, |pixels| Metric::Edge { pixels }).into_iter();
+        edges
+            .map(|(label, scene)| (label, with_settings(&scene, change)))
+            .collect()
+    };
     all.push(refining(
         "edge, geomorph",
-        pixels(&EDGES, |pixels| Metric::Edge { pixels })
-            .into_iter()
-            .map(|(label, scene)| {
-                (
-                    label,
-                    with_settings(&scene, |settings| settings.morph = Morph::Geomorph),
-                )
-            })
-            .collect(),
+        edges_with(|settings| settings.morph = Morph::Geomorph),
     ));
     all.push(refining(
         "edge, pairs as wished",
-        pixels(&EDGES, |pixels| Metric::Edge { pixels })
-            .into_iter()
-            .map(|(label, scene)| (label, with_settings(&scene, |settings| settings.pairs = Pairs::Wished)))
-            .collect(),
+        edges_with(|settings| settings.pairs = Pairs::Wished),
     ));
     let with = |change: &dyn Fn(&mut Settings)| with_settings(&compared(loaded), change);
     all.push(of_settings(

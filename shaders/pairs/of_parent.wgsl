@@ -1,7 +1,7 @@
 // A pair by its parent, where sizes are lengths.
-// requires: shared/place.wgsl, shared/neighbour.wgsl, shared/surface.wgsl
+// requires: pairs/about_leg.wgsl, shared/surface.wgsl
 
-fn pair_size(even: Place) -> f32 {
-    let parent = place_parent(even, place_digit(even));
-    return HALF_LEVEL * metric_size(parent, surface_bound(parent));
+fn pair_size(half: Place) -> f32 {
+    let whole = pair_bound(half);
+    return whole.times * HALF_LEVEL * metric_size(whole.node, surface_bound(whole.node));
 }

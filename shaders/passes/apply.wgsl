@@ -42,7 +42,7 @@ fn merge(slots: vec4u) {
         leaves[slots[i]].node_hi = 0u;
         lists[freed + i - 1u] = slots[i];
     }
-    settle_in(slots.x, leaf_parent(leaf, place), place, place_digit(place));
+    settle_in(slots.x, leaf_parent(leaf, place), place, kept_digit(place));
     atomicAdd(&control.merges, 1u);
 }
 

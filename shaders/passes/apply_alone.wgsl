@@ -41,7 +41,7 @@ fn apply(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: v
     let place = leaf_place(leaf);
     if place_digit(place) == 0u {
         let parent = place_parent(place, 0u);
-        settle_in(slot, leaf_parent(leaf, parent), place_digit(parent));
+        settle_in(slot, leaf_parent(leaf, parent), kept_digit(parent));
         atomicAdd(&control.merges, 1u);
     } else {
         leaves[slot].node_hi = 0u;

@@ -1,7 +1,7 @@
 // Keeps the flags that say of a leaf whether it must be half of a pair, and whether it may be. About the vertex in the middle of a leg
 // lie four nodes: two children of each of the nodes that share the leg. Where one of these is a leaf, the other one's children are
 // *blocked* and drawn as a pair, since that leaf has no vertex there; where all four are leaves, they are *free*: both pairs may be
-// drawn, or none.
+// drawn, or none. About the centre of a face with four corners lie its roots, of which the same holds.
 //
 // Only the leaves about three legs of a change can have changed: its own two, and the one that it shares with its parent. Runs when all
 // changes have happened, so that every invocation that touches a flag writes the same value.
@@ -57,6 +57,21 @@ fn flag_beside(node: Place, slot: u32) {
     set_flags(others.y, flags);
 }
 
+// About the centre of a face: one of its roots has changed, or any may have.
+fn flag_roots(face: u32) {
+    if corner_count(face) != 4u {
+        return;
+    }
+    var slots: vec4u;
+    for (var root = 0u; root < 4u; root++) {
+        slots[root] = find_leaf(root_place(face, root));
+    }
+    let flags = select(0u, FREE, all(slots != vec4u(NONE)));
+    for (var root = 0u; root < 4u; root++) {
+        set_flags(slots[root], flags);
+    }
+}
+
 @compute @workgroup_size(64)
 fn flag(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: vec3u, @builtin(local_invocation_index) lane: u32) {
     let index = (group.x + group.y * groups.x) * 64u + lane;
@@ -77,6 +92,8 @@ fn flag(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups: ve
     flag_leg(children.xy, neighbour_y(node), vec2u(2u, 3u));
     if node.level > 0u {
         flag_beside(node, slot);
+    } else {
+        flag_roots(node.face);
     }
 }
 
@@ -90,5 +107,7 @@ fn flag_all(@builtin(workgroup_id) group: vec3u, @builtin(num_workgroups) groups
     let node = leaf_place(leaves[slot]);
     if node.level > 0u {
         flag_beside(node, slot);
+    } else {
+        flag_roots(node.face);
     }
 }

@@ -42,6 +42,7 @@ fn keep_cone(slot: u32, leaf: Place, digit: u32) {
         corners[i] = grid_point(leaf, false, select(0u, side, i == 1u), select(0u, side, i == 2u));
     }
     let axis = cross_direction(corners[1] - corners[0], corners[2] - corners[0]);
-    let cosine = grid_cosine(leaf, axis, digit != ROOT_DIGIT && (digit & 1u) == 0u);
+    let may_be_pair = select((digit & 1u) == 0u, leads_pair_of_roots(leaf), digit == ROOT_DIGIT);
+    let cosine = grid_cosine(leaf, axis, may_be_pair);
     parents[frame.capacity + slot] = select(vec4f(0.0), vec4f(axis, cosine), cosine > 0.0);
 }

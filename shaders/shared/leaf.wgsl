@@ -22,7 +22,7 @@ struct Measure {
     size: f32,      // numerator of the metric; 0 at the level limit
     guard: f32,     // radius for the guard band
     parent_size: f32,
-    parent_radius: f32, // of an even child, for culling: a pair is drawn as half of the parent
+    parent_radius: f32, // of an even child, for culling: a pair is drawn as half of the parent; of an even root, of its pair
 }
 
 // Word `slot` of the state: the published wish and the flags below.
@@ -31,7 +31,7 @@ const PAIR: u32 = 1u;     // drawn as half of a pair; it must be unless it is fr
 const FRESH: u32 = 2u;    // not yet published
 const MATURE: u32 = 4u;   // was there when it published
 const MERGE: u32 = 8u;    // the parent's metric is satisfied (published by child 0)
-const DIGIT_SHIFT: u32 = 4u; // the last digit, 0..4, in three bits
+const DIGIT_SHIFT: u32 = 4u; // `kept_digit`, 0..5, in three bits
 const FREE: u32 = 128u;   // the four nodes about the right angle are leaves: both pairs may be drawn, or none
 const STATE_FLAGS: u32 = 0xffu;
 

@@ -53,6 +53,15 @@ fn previous_root(face: u32, root: u32) -> u32 {
     return select(root, corner_count(face), root == 0u) - 1u;
 }
 
+fn root_place(face: u32, root: u32) -> Place {
+    return Place(face, root, 0u, 0u, 0u, 0u);
+}
+
+// What the state of a leaf keeps of its digit: its last bit tells the odd half of a pair, also of roots.
+fn kept_digit(p: Place) -> u32 {
+    return select(place_digit(p), ROOT_DIGIT | (p.root & 1u), p.level == 0u);
+}
+
 // Across the leg O-R, which is the neighbour's leg O-U.
 fn neighbour_x(p: Place) -> Place {
     if p.orientation == 0u && p.y == 0u {

@@ -1,6 +1,8 @@
 // Nothing is kept of pairs that need not be.
 // requires: shared/place.wgsl
 
+const ROOTS_MAY_BE_PAIRS: bool = false;
+
 fn keep_pair(slot: u32, leaf: Place, digit: u32) {
 }
 

@@ -140,8 +140,7 @@ fn damage_to_keys_the_table_counters_and_the_visible_list_is_found() {
     let twice = broken(&|s| s.visible.push(s.visible[0]));
     assert!(matches!(twice, Some(Finding::Drawn { .. })), "{twice:?}");
     let hidden = broken(&|s| {
-        let odd = (0..s.leaves.len())
-            .find(|slot| s.is_pair(*slot) && s.leaves[*slot].place().digit().is_some_and(|d| d % 2 == 1));
+        let odd = (0..s.leaves.len()).find(|slot| s.is_pair(*slot) && s.leaves[*slot].place().is_odd_half());
         s.visible.push(odd.expect("some pair") as u32);
     });
     assert!(matches!(hidden, Some(Finding::Drawn { .. })), "{hidden:?}");

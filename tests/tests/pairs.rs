@@ -1,14 +1,14 @@
 //! Leaves that are drawn two as one triangle where the metric is satisfied with that: as the f64 twin says, and without a crack.
 
 use crate::random::Random;
-use crate::snapshot::findings;
+use crate::snapshot::{drawn_slots, findings};
 use crate::surfaces;
 use crate::watertight::{check, draw};
-use crate::world::{World, random_view, settings};
+use crate::world::{World, random_view, settings, size_of_box};
 use glam::DVec3;
-use keyleaf::key::{Place, RootPoint};
+use keyleaf::key::Place;
 use keyleaf::read_back::Snapshot;
-use keyleaf::{Frame, Metric, Pairs, Settings, Threshold, View};
+use keyleaf::{BackFaces, Frame, Metric, Pairs, Settings, Threshold, View};
 
 fn wished(metric: Metric, k: u32) -> Settings {
     Settings {
@@ -75,7 +75,7 @@ fn free_leaves_are_pairs_where_the_f64_twin_says_so_and_nothing_cracks() {
                     if !snapshot.is_free(slot) {
                         continue;
                     }
-                    let wish = pair_wish(&world, &view, pressure, &leaf.place()).expect("below a root");
+                    let wish = pair_wish(&world, &view, pressure, &leaf.place()).expect("a pair");
                     if (wish - 1.0).abs() < 1e-3 {
                         near += 1;
                     } else if is_exact {
@@ -133,16 +133,12 @@ fn farthest(world: &World, view: &View, snapshot: &Snapshot, random: &mut Random
             let [u, v] = [random.unit(), random.unit()];
             let [u, v] = if u + v > 1.0 { [1.0 - u, 1.0 - v] } else { [u, v] };
             let weights = [1.0 - u - v, u, v];
-            let mean = |of: fn(&RootPoint) -> u32| {
-                let sum: f64 = corners
-                    .iter()
-                    .zip(weights)
-                    .map(|(corner, w)| w * f64::from(of(corner)))
-                    .sum();
-                sum.round() as u32
+            let [a, b] = [u, v].map(|part| (part * f64::from(place.unit())) as u32);
+            let at = if snapshot.is_pair(slot as usize) {
+                place.at_of_pair(a, b)
+            } else {
+                place.at(a, b)
             };
-            let [x, y] = [mean(|at| at.x), mean(|at| at.y)];
-            let at = RootPoint { x, y, ..corners[0] };
             let on = surface.drawn(at).position;
             let flat: DVec3 = positions.iter().zip(weights).map(|(&p, w)| p * w).sum();
             let pixels = view.pixels_per_unit() / on.distance(view.eye);
@@ -155,19 +151,20 @@ fn farthest(world: &World, view: &View, snapshot: &Snapshot, random: &mut Random
 /// `deviation` is a promise: pairs keep it, and take fewer triangles.
 #[test]
 fn pairs_keep_the_promise_of_the_deviation_with_fewer_triangles() {
-    let mut all = [0, 0];
+    let (mut all, mut pairs_of_roots) = ([0, 0], 0);
     for (name, surface) in [surfaces::patches(), surfaces::subdivided()]
         .concat()
         .into_iter()
         .step_by(2)
     {
         let mut random = Random(40);
-        for _ in 0..2 {
+        // From afar roots are pairs as well.
+        for diagonals in [1.5, 1.5, 300.0] {
             let (low, high) = surface.bounding_box();
             let size = (high - low).length();
             let towards = random.point((DVec3::NEG_ONE, DVec3::ONE)).normalize();
             let view = View::look_at(
-                (low + high) / 2.0 + 1.5 * size * towards,
+                (low + high) / 2.0 + diagonals * size * towards,
                 (low + high) / 2.0,
                 0.9,
                 1e-3,
@@ -191,10 +188,91 @@ fn pairs_keep_the_promise_of_the_deviation_with_fewer_triangles() {
                         "{name}: {farthest} of {pixels} px, {free} pairs"
                     );
                     *triangles += snapshot.visible.len();
+                    let is_of_roots = |&&slot: &&u32| {
+                        let slot = slot as usize;
+                        snapshot.leaves[slot].place().level == 0 && snapshot.is_pair(slot)
+                    };
+                    pairs_of_roots += snapshot.visible.iter().filter(is_of_roots).count();
                 }
             }
         }
     }
-    println!("{} triangles with forced pairs, {} with wished ones", all[0], all[1]);
-    assert!(all[1] * 10 < all[0] * 8, "{all:?}");
+    println!(
+        "{} triangles with forced pairs, {} with wished ones; {pairs_of_roots} pairs of roots",
+        all[0], all[1]
+    );
+    assert!(
+        all[1] * 10 < all[0] * 8 && pairs_of_roots > 10,
+        "{all:?}, {pairs_of_roots}"
+    );
+}
+
+/// Far away a face with four corners is two triangles, as one with three is three; near by nothing cracks on the way to that.
+#[test]
+fn faces_with_four_corners_are_two_triangles_far_away() {
+    let mut faces_of_two = 0;
+    for (seed, (name, surface)) in (0..).zip(surfaces::all()) {
+        let topology = surface.topology();
+        let corners = |face| topology.corner_count(face) as usize;
+        let fewest = |face| if corners(face) == 4 { 2 } else { corners(face) };
+        let (low, high) = surface.bounding_box();
+        let (middle, size) = ((low + high) / 2.0, (high - low).length());
+        let mut random = Random(900 + seed);
+        let towards = random.point((DVec3::NEG_ONE, DVec3::ONE)).normalize();
+        for (k, back_faces) in [(0, BackFaces::Drawn), (1, BackFaces::Leaves)] {
+            let settings = Settings {
+                back_faces,
+                ..wished(Metric::Edge { pixels: 30.0 }, k)
+            };
+            let mut world = World::new(&surface, settings);
+            for (times, passes) in [(1e4, 6), (10.0, 3), (0.6, 8), (1e4, 40)] {
+                let from = middle + times * size * towards;
+                let view = View::look_at(from, middle, 0.9, 1e-3, glam::UVec2::new(640, 480));
+                let snapshot = world.passes(&view, passes);
+                let case = format!("{name}, base grid {k}, {times} diagonals away");
+                assert_eq!(findings(topology, &snapshot), [], "{case}");
+                check(topology, &draw(&world, &snapshot), &case);
+            }
+            let snapshot = world.snapshot();
+            assert_eq!(snapshot.leaves.len(), topology.half_edge_count() as usize, "{name}");
+            let drawn = drawn_slots(&snapshot).len();
+            assert_eq!(drawn, (0..topology.face_count()).map(fewest).sum::<usize>(), "{name}");
+            if back_faces == BackFaces::Drawn {
+                assert_eq!(snapshot.visible.len(), drawn, "{name}");
+            }
+            faces_of_two += (0..topology.face_count()).filter(|&face| corners(face) == 4).count();
+        }
+    }
+    assert!(faces_of_two > 50, "{faces_of_two}");
+}
+/// No point of a pair of roots is farther from its triangle than the size of the pair says.
+#[test]
+fn the_deviation_of_pairs_of_roots_is_bounded() {
+    let mut faces = 0;
+    for (seed, (name, surface)) in (0..).zip(surfaces::all()) {
+        let mut random = Random(60 + seed);
+        let size = Metric::Deviation { pixels: 1.0 }.size(0);
+        for face in 0..surface.topology().face_count() {
+            let roots = [0, 2].map(|root| Place::of_root(face, root));
+            let Some(bound) = size.of_pair(surface.as_ref(), &roots[0]) else {
+                continue;
+            };
+            faces += 1;
+            for root in roots {
+                let corners = root.drawn(true).expect("an even root");
+                let positions = corners.map(|corner| surface.drawn(corner).position);
+                for _ in 0..50 {
+                    let [u, v] = [random.unit(), random.unit()];
+                    let [u, v] = if u + v > 1.0 { [1.0 - u, 1.0 - v] } else { [u, v] };
+                    let [a, b] = [u, v].map(|part| (part * f64::from(root.unit())) as u32);
+                    let on = surface.drawn(root.at_of_pair(a, b)).position;
+                    let flat = positions[0] * (1.0 - u - v) + positions[1] * u + positions[2] * v;
+                    let off = on.distance(flat);
+                    let rounding = 1e-8 * size_of_box(surface.bounding_box()); // of the coordinates
+                    assert!(off <= bound + rounding, "{name}: {off} of {bound}, {root:?}");
+                }
+            }
+        }
+    }
+    assert!(faces > 20, "{faces}");
 }

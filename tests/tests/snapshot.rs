@@ -59,7 +59,7 @@ pub fn findings(topology: &Topology, snapshot: &Snapshot) -> Vec<Finding> {
     let slots = 0..leaves.len();
     let pairs: BTreeMap<Place, bool> = slots.map(|slot| (leaves[slot], snapshot.is_pair(slot))).collect();
     for ((leaf, place), word) in snapshot.leaves.iter().zip(&leaves).zip(&snapshot.states) {
-        if leaf.key != place.key() || state::digit(*word) != place.digit().unwrap_or(state::ROOT_DIGIT) {
+        if leaf.key != place.key() || state::digit(*word) != state::digit_of(*place) {
             found.push(Finding::Key(*leaf));
         }
         let (pair, free) = (word & state::PAIR != 0, word & state::FREE != 0);

@@ -18,7 +18,10 @@ fn grid_points(leaf: &Place, is_pair: bool, grid: &BaseGrid, k: u32) -> Vec<Root
     let (unit, step) = (leaf.unit(), leaf.unit() >> k);
     let at = |vertex: &u32| {
         let (i, j) = (vertex & 0xffff, vertex >> 16);
-        if is_pair {
+        if is_pair && leaf.level == 0 && i < j {
+            let before = Place::of_root(leaf.face, (leaf.root + 3) % 4);
+            before.at((j - i) * step, unit - (i + j) * step)
+        } else if is_pair {
             leaf.at(unit.wrapping_sub((i + j) * step), (i * step).wrapping_sub(j * step))
         } else {
             leaf.at(i * step, j * step)
@@ -87,10 +90,6 @@ pub fn check(topology: &Topology, drawn: &Drawn, case: &str) {
         );
     }
     let mut edges: HashMap<[Site; 2], u32> = HashMap::new();
-    let on_boundary = |v: usize| {
-        let at = drawn.vertices[v].1;
-        at.is_on_mesh_edge() && topology.twin(at.face, at.root).is_none()
-    };
     let mut boundary = Vec::new();
     for triangle in &drawn.triangles {
         for (a, b) in [(0, 1), (1, 2), (2, 0)] {
@@ -98,7 +97,8 @@ pub fn check(topology: &Topology, drawn: &Drawn, case: &str) {
             let ends = edge.map(|v| drawn.vertices[v].0);
             assert_ne!(ends[0], ends[1], "{case}: a triangle without area");
             *edges.entry(ends).or_default() += 1;
-            if edge.iter().all(|v| on_boundary(*v)) {
+            let [from, to] = edge.map(|v| drawn.vertices[v].1);
+            if from.runs_along_boundary(to, topology) {
                 boundary.push(ends);
             }
         }

@@ -1,6 +1,6 @@
 //! A key decoded in integers (ARCHITECTURE section 2): where a node lies in its root, exactly, at every level.
 
-use crate::{Key, MAX_LEVEL, ONE};
+use crate::{Key, MAX_LEVEL, ONE, Topology};
 use bytemuck::{Pod, Zeroable};
 
 /// The images of (1, 0) after 0, 1, 2 and 3 quarter turns to the left. The arithmetic wraps: `u32::MAX` stands for -1, and
@@ -28,6 +28,54 @@ impl RootPoint {
     /// The weight of the face's centre.
     pub fn z(self) -> u32 {
         ONE.wrapping_sub(self.x).wrapping_sub(self.y)
+    }
+
+    /// Coordinates in the axes of another root of the same face, which has four corners: its roots are turned against each other by
+    /// right angles. Negative beyond a spoke.
+    fn in_axes_of(self, root: u32) -> [i64; 2] {
+        let turns = self.root.wrapping_sub(root) & 3;
+        let start = [self.x, self.y].map(i64::from);
+        (0..turns).fold(start, |[a, b], _| [-b, a])
+    }
+
+    /// The point of a face with four corners that has these coordinates in the axes of a root.
+    fn from_axes(face: u32, root: u32, mut at: [i64; 2]) -> Self {
+        let mut own = root & 3;
+        while at.iter().any(|&x| x < 0) {
+            at = [at[1], -at[0]];
+            own = (own + 1) & 3;
+        }
+        let [x, y] = at.map(|x| x as u32);
+        Self { face, root: own, x, y }
+    }
+
+    /// The point in the middle between this one and another of the same root, or of the same face if it has four corners; none if it is
+    /// not a multiple of 1/[`ONE`].
+    pub fn middle(self, other: Self) -> Option<Self> {
+        let [from, to] = [self, other].map(|point| point.in_axes_of(self.root));
+        let sum = [from[0] + to[0], from[1] + to[1]];
+        let is_whole = sum.iter().all(|x| x % 2 == 0);
+        is_whole.then(|| {
+            if self.root == other.root {
+                let [x, y] = sum.map(|x| (x / 2) as u32);
+                Self { x, y, ..self }
+            } else {
+                Self::from_axes(self.face, self.root, sum.map(|x| x / 2))
+            }
+        })
+    }
+
+    /// Whether a straight line from this point to another of the same face lies on a mesh edge without a neighbour.
+    pub fn runs_along_boundary(self, other: Self, topology: &Topology) -> bool {
+        let is_open = |root: u32| topology.twin(self.face, root).is_none();
+        if self.root == other.root {
+            return [self, other].iter().all(|point| point.is_on_mesh_edge()) && is_open(self.root);
+        }
+        // Only pairs of the roots of a four-cornered face reach over a spoke.
+        (0..4).any(|root| {
+            let is_on_edge = |[a, b]: [i64; 2]| a >= 0 && b >= 0 && a + b == i64::from(ONE);
+            [self, other].iter().all(|point| is_on_edge(point.in_axes_of(root))) && is_open(root)
+        })
     }
 
     /// Whether the point lies on the mesh edge of its root, end points included.
@@ -135,6 +183,29 @@ impl Place {
         }
     }
 
+    /// Whether this is the odd half of the pair that it may be half of: child 1 or 3, and root 1 or 3 of a face with four corners.
+    /// An odd half is not drawn, the even one takes its place.
+    pub fn is_odd_half(self) -> bool {
+        self.digit().unwrap_or(self.root) & 1 == 1
+    }
+
+    /// The point (a, b) of the triangle of the pair of which this is the even half, in units of 1/[`ONE`] along its legs.
+    ///
+    /// In this node's axes the right angle is at (u, 0), and the legs end at (0, u) and (0, -u). Of two roots, what is beyond the spoke is in
+    /// the root before this one; their face has four corners.
+    pub fn at_of_pair(self, a: u32, b: u32) -> RootPoint {
+        let (along, across) = (self.unit().wrapping_sub(a).wrapping_sub(b), a.wrapping_sub(b));
+        if self.level == 0 && a < b {
+            return RootPoint {
+                face: self.face,
+                root: self.root.wrapping_sub(1) & 3,
+                x: b - a,
+                y: along,
+            };
+        }
+        self.at(along, across)
+    }
+
     /// The four children, by digit.
     pub fn children(self) -> [Self; 4] {
         [0, 1, 2, 3].map(|digit| self.child(digit))
@@ -200,21 +271,18 @@ impl Place {
         self.level <= MAX_LEVEL && self.key().place() == Ok(self)
     }
 
-    /// The triangle that is drawn for this leaf, corners in the order O, R, U of its own or its parent's leaf space.
+    /// The triangle that is drawn for this leaf, counter-clockwise: its own corners O, R, U, or those of the pair that it is half of, from
+    /// its right angle on (ARCHITECTURE section 3). The even half then draws for both, and the odd one nothing.
     ///
-    /// `paired` says that the node across the leg that the leaf shares with its parent is a leaf, so that the pair of
-    /// children along that leg is drawn as one triangle, half of the parent (ARCHITECTURE section 3, *T-junctions*). The even child
-    /// then draws for both and the odd one nothing.
+    /// `paired` says that. Leaves must be pairs where the node across the leg that they share with their parent is a leaf, and may be
+    /// where the four nodes about their right angle are leaves; roots only if their face has four corners.
     pub fn drawn(self, paired: bool) -> Option<[RootPoint; 3]> {
-        let Some((parent, digit)) = self.ascend().filter(|_| paired) else {
+        if !paired {
             return Some(self.corners());
-        };
-        let [origin, right, up] = parent.corners();
-        match digit {
-            0 => Some([origin, parent.middle(), up]),
-            2 => Some([origin, right, parent.middle()]),
-            _ => None,
         }
+        let unit = self.unit();
+        let corners = [[0, 0], [unit, 0], [0, unit]];
+        (!self.is_odd_half()).then(|| corners.map(|[a, b]| self.at_of_pair(a, b)))
     }
 }
 
@@ -294,13 +362,51 @@ mod tests {
         assert_eq!(
             drawn,
             [
-                Some([origin, parent.middle(), up]),
+                Some([parent.middle(), up, origin]),
                 None,
-                Some([origin, right, parent.middle()]),
+                Some([parent.middle(), origin, right]),
                 None
             ]
         );
         assert_eq!(parent.child(1).drawn(false), Some(parent.child(1).corners()));
-        assert_eq!(Place::of_root(0, 0).drawn(true), Some(Place::of_root(0, 0).corners()));
+    }
+
+    #[test]
+    fn two_pairs_of_roots_are_a_face_cut_along_a_diagonal() {
+        let corner = |root: u32| RootPoint {
+            face: 7,
+            root,
+            x: ONE,
+            y: 0,
+        };
+        let last = |root: u32| RootPoint {
+            face: 7,
+            root,
+            x: 0,
+            y: ONE,
+        };
+        let drawn = [0, 1, 2, 3].map(|root| Place::of_root(7, root).drawn(true));
+        let expected = |root: u32| Some([corner(root), last(root), corner((root + 3) & 3)]);
+        assert_eq!(drawn, [expected(0), None, expected(2), None]);
+    }
+
+    #[test]
+    fn middles_of_lines_over_a_spoke_lie_on_the_face() {
+        let at = |root, x, y| RootPoint { face: 7, root, x, y };
+        let half = ONE / 2;
+        let cases = [
+            (at(0, ONE, 0), at(3, ONE, 0), Some(at(3, half, half))), // a mesh edge, its ends in two roots
+            (at(0, 0, ONE), at(3, ONE, 0), Some(at(0, 0, 0))),       // the diagonal
+            (at(2, 0, half), at(3, 0, half), Some(at(3, half / 2, half / 2))),
+            (at(1, 8, 4), at(1, 2, 6), Some(at(1, 5, 5))),
+            (at(1, 8, 4), at(1, 3, 6), None),
+        ];
+        // The centre is one point in any root.
+        let site = |at: RootPoint| if at.z() == ONE { RootPoint { root: 0, ..at } } else { at };
+        for (from, to, middle) in cases {
+            for found in [from.middle(to), to.middle(from)] {
+                assert_eq!(found.map(site), middle, "{from:?} {to:?}");
+            }
+        }
     }
 }

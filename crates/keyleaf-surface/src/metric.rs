@@ -64,14 +64,11 @@ const CORNERS: [[u32; 2]; 3] = [[0, 0], [4, 0], [0, 4]];
 
 impl Samples<'_> {
     fn at(&self, [a, b]: [u32; 2]) -> DVec3 {
-        let (unit, quarter) = (self.leaf.unit(), self.leaf.unit() / 4);
+        let [a, b] = [a, b].map(|quarters| self.leaf.unit() / 4 * quarters);
         self.surface.point(if self.is_pair {
-            self.leaf.at(
-                unit.wrapping_sub(quarter * (a + b)),
-                (quarter * a).wrapping_sub(quarter * b),
-            )
+            self.leaf.at_of_pair(a, b)
         } else {
-            self.leaf.at(quarter * a, quarter * b)
+            self.leaf.at(a, b)
         })
     }
 
@@ -183,29 +180,31 @@ impl MetricSize {
         }
     }
 
-    /// The size of what a leaf below the roots may be drawn as half of: the pair of it and its sibling, or the pair across their leg,
-    /// whichever is larger. Leaves so deep that quarters have no coordinates have none: infinite.
+    /// The size of what a leaf may be drawn as half of: the pair of it and its sibling, or the pair across their leg, whichever is larger.
+    /// None of roots whose face has not four corners. Leaves so deep that quarters have no coordinates have none: infinite.
     pub fn of_pair(self, surface: &dyn Surface, leaf: &Place) -> Option<f64> {
-        let [own, sibling, across, other] = neighbour::about_right_angle(surface.topology(), *leaf)?;
-        let is_even = |node: &&Place| node.digit().is_some_and(|digit| digit % 2 == 0);
-        let pairs = [[own, sibling], [across, other]].map(|pair| pair.iter().find(is_even).copied());
-        let sizes = pairs.into_iter().flatten().map(|even| self.of_own_pair(surface, even));
-        Some(sizes.fold(0.0, f64::max))
+        let about = neighbour::about_right_angle(surface.topology(), *leaf)?;
+        let sizes = about.map(|half| self.of_half_of_pair(surface, half));
+        Some(sizes.into_iter().fold(0.0, f64::max))
     }
 
-    /// Of the pair of which it is the even half.
-    fn of_own_pair(self, surface: &dyn Surface, even: Place) -> f64 {
-        let parent = even.parent().unwrap_or(even);
+    /// What one half of a pair says of its size. Both halves together have it: all of a pair is in the parent of a half; but over a pair of
+    /// roots there is no parent, which is to be twice as large as a root.
+    fn of_half_of_pair(self, surface: &dyn Surface, half: Place) -> f64 {
+        let whole = half.parent().unwrap_or(half);
+        let times = if half.level == 0 { 2.0 } else { 1.0 };
         match self {
-            Self::Edge | Self::Distance | Self::Boundary(_) | Self::LocalArea => HALF_LEVEL * self.of(surface, &parent),
-            Self::Deviation { grid } => {
-                let bound = surface.bound(&parent);
-                bound
-                    .pair_deviation
-                    .min(FARTHEST * bound.size * f64::from(1u32 << grid))
+            Self::Edge | Self::Distance | Self::Boundary(_) | Self::LocalArea => {
+                times * HALF_LEVEL * self.of(surface, &whole)
             }
-            _ if even.level + 2 > MAX_LEVEL => f64::INFINITY,
-            _ => self.of_half(surface, even, true),
+            Self::Deviation { grid } => {
+                let bound = surface.bound(&whole);
+                let by_speed = times * FARTHEST * bound.size * f64::from(1u32 << grid);
+                by_speed.min(times * times * bound.pair_deviation)
+            }
+            _ if half.level + 2 > MAX_LEVEL => f64::INFINITY,
+            _ if half.is_odd_half() => 0.0,
+            _ => self.of_half(surface, half, true),
         }
     }
 

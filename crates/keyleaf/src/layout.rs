@@ -66,6 +66,8 @@ pub struct Measure {
 
 /// Flags of a state word (its low eight bits hold these and the digit; the others are the published wish).
 pub mod state {
+    use keyleaf_key::Place;
+
     /// Drawn as half of a pair. If the leaf is not free, it must be, and may not split.
     pub const PAIR: u32 = 1;
     /// Made since the last publication.
@@ -76,14 +78,19 @@ pub mod state {
     pub const MERGE: u32 = 8;
     /// Where the last digit is, in three bits.
     pub const DIGIT_SHIFT: u32 = 4;
-    /// The digit of a root.
+    /// The digit of an even root; that of an odd one is one more.
     pub const ROOT_DIGIT: u32 = 4;
     /// The four nodes about the right angle are leaves: both pairs may be drawn, or none.
     pub const FREE: u32 = 0x80;
     /// All bits that are not the wish.
     pub const FLAGS: u32 = 0xff;
 
-    /// The last digit, 0..=3, or [`ROOT_DIGIT`].
+    /// What [`digit`] says of a place.
+    pub fn digit_of(place: Place) -> u32 {
+        place.digit().unwrap_or(ROOT_DIGIT | (place.root & 1))
+    }
+
+    /// The last digit, 0..=3, or [`ROOT_DIGIT`] or one more: where pairs may be, the last bit tells their odd halves.
     pub fn digit(word: u32) -> u32 {
         (word >> DIGIT_SHIFT) & 7
     }

@@ -286,7 +286,7 @@ impl Quadtree {
         let records: Vec<Leaf> = leaves.iter().map(Leaf::new).collect();
         let states: Vec<u32> = leaves
             .iter()
-            .map(|p| state::FRESH | (p.digit().unwrap_or(state::ROOT_DIGIT) << state::DIGIT_SHIFT))
+            .map(|&p| state::FRESH | (state::digit_of(p) << state::DIGIT_SHIFT))
             .collect();
         queue.write_buffer(&self.buffers.leaves, 0, bytemuck::cast_slice(&records));
         queue.write_buffer(&self.buffers.state, 0, bytemuck::cast_slice(&states));

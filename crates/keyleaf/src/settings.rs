@@ -356,8 +356,8 @@ pub enum Pairs {
     /// Those beside a leaf that has no vertex between them.
     #[default]
     Forced,
-    /// Also those with which the metric is satisfied, on both sides of a leg: triangles come in powers of two, not of four. Takes 16 bytes a
-    /// leaf, and the surface is asked more of new leaves.
+    /// Also those with which the metric is satisfied, on both sides of a leg: triangles come in powers of two, not of four. A face with four
+    /// corners may be two triangles, where vertices do not morph. Takes 16 bytes a leaf, and the surface is asked more of new leaves.
     Wished,
 }
 

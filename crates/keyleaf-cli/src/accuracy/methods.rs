@@ -8,7 +8,7 @@ use super::studio::{Setup, Studio, with_object, with_settings};
 use crate::output::thousands;
 use crate::progress;
 use anyhow::Context;
-use keyleaf::{BackFaces, Metric, Pairs, Projection, Threshold, View};
+use keyleaf::{Attribute, BackFaces, Metric, Pairs, Projection, Threshold, View};
 use keyleaf_baseline::{Deviation, Method, Quality, deviation};
 use keyleaf_stage::{Loaded, Pipelines};
 use serde_json::json;
@@ -108,9 +108,12 @@ struct Made {
     method: Method,
     triangles: u64,
     deviation: Deviation,
-    /// Of its picture.
-    decibels: f64,
+    /// Of its picture, none where it has more triangles than the device takes.
+    decibels: Option<f64>,
 }
+
+/// Bytes of the largest buffer of a mesh, a triangle: attributes of its corners and its own.
+const BYTES_OF_TRIANGLE: u64 = 4 * size_of::<Attribute>() as u64;
 
 /// All methods at all qualities.
 fn tessellations(
@@ -123,19 +126,26 @@ fn tessellations(
     let seen = seen_from(loaded, view, setup)?;
     let quiet = Setup { quiet: true, ..*setup };
     let mut pipelines = Pipelines::default();
+    let limit = setup.gpu.device.limits().max_storage_buffer_binding_size;
     let bar = progress::bar((Quality::ALL.len() * Method::ALL.len()) as u64, "methods", setup.quiet);
     let mut made = Vec::new();
     for quality in Quality::ALL {
         for method in Method::ALL {
             let tessellation = method.tessellate(sampler, &seen, quality)?;
-            let drawn = with_object(loaded, object_of(&loaded.objects[0], sampler, &tessellation)?);
-            let mut studio = Studio::with_pipelines(&quiet, &drawn, view, &mut pipelines)?;
+            let triangles = tessellation.triangles.len() as u64;
+            let decibels = if triangles * BYTES_OF_TRIANGLE <= limit {
+                let drawn = with_object(loaded, object_of(&loaded.objects[0], sampler, &tessellation)?);
+                let mut studio = Studio::with_pipelines(&quiet, &drawn, view, &mut pipelines)?;
+                Some(psnr(&studio.look()?.pixels, reference))
+            } else {
+                None
+            };
             made.push(Made {
                 quality,
                 method,
-                triangles: tessellation.triangles.len() as u64,
+                triangles,
                 deviation: deviation(sampler, &seen, &tessellation)?,
-                decibels: psnr(&studio.look()?.pixels, reference),
+                decibels,
             });
             bar.inc(1);
         }
@@ -156,7 +166,7 @@ pub fn table(setup: &Setup<'_>, loaded: &Loaded, view: &View) -> anyhow::Result<
     let fine = reference(setup, loaded, view, back_faces)?;
     let quiet = Setup { quiet: true, ..*setup };
     let made = tessellations(setup, loaded, view, &sampler, &fine.pixels)?;
-    let highest = made.iter().map(|made| made.decibels).fold(0.0, f64::max);
+    let highest = made.iter().filter_map(|made| made.decibels).fold(0.0, f64::max);
     let mut curves = Vec::new();
     let bar = progress::bar(METRICS.len() as u64, "quadtree", setup.quiet);
     for refined in &METRICS {
@@ -178,11 +188,11 @@ pub fn table(setup: &Setup<'_>, loaded: &Loaded, view: &View) -> anyhow::Result<
             made.method.to_string(),
             thousands(made.triangles),
             format!("{:.3}", made.deviation.max_pixels),
-            psnr::cell(made.decibels),
+            made.decibels.map_or_else(|| "-".to_owned(), psnr::cell),
         ];
         let mut equal = serde_json::Map::new();
         for (name, curve) in &curves {
-            let found = curve.triangles(made.decibels);
+            let found = made.decibels.and_then(|decibels| curve.triangles(decibels));
             let ratio = found.map(|found| made.triangles as f64 / found);
             let or_dash = |text: Option<String>| text.unwrap_or_else(|| "-".to_owned());
             row.push(or_dash(found.map(|found| thousands(found.round() as u64))));
@@ -193,7 +203,7 @@ pub fn table(setup: &Setup<'_>, loaded: &Loaded, view: &View) -> anyhow::Result<
         shown.rows.push(json!({
             "quality": made.quality.to_string(), "method": made.method.to_string(), "triangles": made.triangles,
             "max_error_pixels": made.deviation.max_pixels, "mean_error_pixels": made.deviation.mean_pixels,
-            "psnr_db": psnr::value(made.decibels), "quadtree": equal,
+            "psnr_db": made.decibels.map(psnr::value), "quadtree": equal,
         }));
     }
     let side = if back_faces == BackFaces::Drawn {

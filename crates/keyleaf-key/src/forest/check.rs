@@ -106,12 +106,10 @@ pub fn cracks(topology: &Topology, triangles: impl IntoIterator<Item = [RootPoin
         .flat_map(|[o, r, u]| [[o, r], [r, u], [u, o]])
         .map(|points| {
             let [from, to] = points.map(|point| Site::of(topology, point));
-            let on_boundary =
-                |point: &RootPoint| point.is_on_mesh_edge() && topology.twin(point.face, point.root).is_none();
             DrawnEdge {
                 ends: [from.min(to), from.max(to)],
                 is_forward: from < to,
-                is_boundary: points.iter().all(on_boundary),
+                is_boundary: points[0].runs_along_boundary(points[1], topology),
             }
         })
         .collect();

@@ -61,11 +61,18 @@ pub fn across_outer_leg(topology: &Topology, node: Place) -> Option<Place> {
 }
 
 /// The four nodes about the vertex at the right angle of a node, which is the middle of the leg that its parent and C(n) share: their
-/// children along that leg, the node and its sibling first. None at a root.
+/// children along that leg, the node and its sibling first. About the centre of a face with four corners these are its roots; none of
+/// other roots.
 ///
 /// Where all four are leaves, they may be drawn as two pairs, without that vertex: their other edges are hypotenuses and outer legs of
 /// theirs, which stay as they are.
 pub fn about_right_angle(topology: &Topology, node: Place) -> Option<[Place; 4]> {
+    if node.level == 0 {
+        // An even root and the one before it are a pair.
+        let sibling = if node.is_odd_half() { 1 } else { 3 };
+        let root = |turns: u32| Place::of_root(node.face, (node.root + turns) & 3);
+        return (topology.corner_count(node.face) == 4).then(|| [node, root(sibling), root(sibling + 2), root(2)]);
+    }
     let (parent, digit) = node.ascend()?;
     let across = across_outer_leg(topology, node)?;
     let side = digit & 2;

@@ -90,7 +90,7 @@ pub(super) fn check<E>(
             let drawn = Drawn {
                 slot,
                 place,
-                is_pair: snapshot.is_pair(slot as usize),
+                is_pair: leaves.pairs[slot as usize],
                 positions,
                 normals,
             };
@@ -202,13 +202,12 @@ impl Matcher<'_> {
     }
 
     fn enter(&mut self, slot: u32, segment: usize, [from, to]: [u32; 2], points: [RootPoint; 2]) {
-        let on_boundary = |p: &RootPoint| p.is_on_mesh_edge() && self.topology.twin(p.face, p.root).is_none();
         self.edges.push(Edge {
             ends: u64::from(from.max(to)) << 32 | u64::from(from.min(to)),
             slot,
             segment: segment as u16,
             is_forward: from < to,
-            is_boundary: points.iter().all(on_boundary),
+            is_boundary: points[0].runs_along_boundary(points[1], self.topology),
         });
     }
 
@@ -262,20 +261,14 @@ impl Matcher<'_> {
     fn ends(&self, edge: &Edge) -> [RootPoint; 2] {
         let slot = edge.slot as usize;
         let place = self.leaves.places[slot].unwrap_or(Place::of_root(0, 0)); // only leaves with a place have edges
-        let is_pair = self.snapshot.is_pair(slot);
+        let is_pair = self.leaves.pairs[slot];
         [0, 1].map(|i| self.point(place, is_pair, usize::from(edge.segment) + i))
     }
 
     /// Whether the middle of an edge is a drawn vertex; notes the parts that the edge then consists of.
     fn halve(&self, [from, to]: [RootPoint; 2], halves: &mut QuickMap<u64, ()>) -> bool {
-        let sum = [u64::from(from.x) + u64::from(to.x), u64::from(from.y) + u64::from(to.y)];
-        if from == to || sum.iter().any(|s| s % 2 != 0) {
+        let Some(middle) = from.middle(to).filter(|_| from != to) else {
             return false;
-        }
-        let middle = RootPoint {
-            x: (sum[0] / 2) as u32,
-            y: (sum[1] / 2) as u32,
-            ..from
         };
         let number = |point| self.welder.find(self.topology, point);
         let (Some(a), Some(m), Some(b)) = (number(from), number(middle), number(to)) else {

@@ -15,6 +15,8 @@ pub(super) struct Leaves {
     pub places: Vec<Option<Place>>,
     /// Slots that make triangles: all but the odd halves of pairs.
     pub drawn: Vec<u32>,
+    /// By slot: whether it is drawn as half of a pair. Never of a root that is none, whatever its flag says.
+    pub pairs: Vec<bool>,
     /// By slot: whether it is in the draw list.
     pub visible: Vec<bool>,
 }
@@ -41,14 +43,24 @@ pub(super) fn check(topology: &Topology, snapshot: &Snapshot, settings: &Setting
     }
     partition(topology, &places, settings, findings);
     states(topology, snapshot, &places, settings, findings);
+    let may_be_pair = |place: &Option<Place>| place.is_some_and(|place| about_right_angle(topology, place).is_some());
+    let pairs: Vec<bool> = (0..)
+        .zip(&places)
+        .map(|(slot, place)| snapshot.is_pair(slot) && may_be_pair(place))
+        .collect();
     let drawn: Vec<u32> = (0..places.len() as u32)
         .filter(|&slot| {
-            let odd = places[slot as usize].map(|place| place.digit().is_some_and(|digit| digit & 1 == 1));
-            odd.is_some_and(|odd| !(odd && snapshot.is_pair(slot as usize)))
+            let odd = places[slot as usize].map(Place::is_odd_half);
+            odd.is_some_and(|odd| !(odd && pairs[slot as usize]))
         })
         .collect();
     let visible = draw_list(snapshot, &drawn, settings, findings);
-    Leaves { places, drawn, visible }
+    Leaves {
+        places,
+        drawn,
+        pairs,
+        visible,
+    }
 }
 
 fn counters(snapshot: &Snapshot, settings: &Settings, findings: &mut Findings) {
@@ -114,7 +126,7 @@ fn states(
     for (slot, place) in places.iter().enumerate() {
         let Some(place) = *place else { continue };
         let word = snapshot.states[slot];
-        let digit = place.digit().unwrap_or(state::ROOT_DIGIT);
+        let digit = state::digit_of(place);
         if state::digit(word) != digit {
             findings.add(FindingKind::State, [place.key()], || {
                 format!("slot {slot} says digit {}, the key says {digit}", state::digit(word))

@@ -7,13 +7,11 @@ use std::hash::{BuildHasherDefault, Hasher};
 
 /// The root-space point of vertex (i, j) of the base grid of 4^k triangles on a drawn leaf; twin of `shaders/shared/grid.wgsl`.
 ///
-/// A pair is drawn as one triangle by its even half: in the even child's axes its right angle M is O + A, its legs are B - A and
-/// -A - B. Level and k together are at most 31.
+/// A pair is drawn as one triangle by its even half: [`Place::at_of_pair`]. Level and k together are at most 31.
 pub fn grid_point(leaf: Place, is_pair: bool, [i, j]: [u32; 2], k: u32) -> RootPoint {
-    let unit = leaf.unit();
-    let step = unit >> k;
+    let step = leaf.unit() >> k;
     if is_pair {
-        leaf.at(unit.wrapping_sub((i + j) * step), (i * step).wrapping_sub(j * step))
+        leaf.at_of_pair(i * step, j * step)
     } else {
         leaf.at(i * step, j * step)
     }

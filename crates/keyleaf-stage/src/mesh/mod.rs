@@ -132,7 +132,7 @@ fn slots(snapshot: &Snapshot, extent: Extent) -> Vec<u32> {
     let mut slots: Vec<u32> = match extent {
         Extent::Seen => snapshot.visible.clone(),
         Extent::Whole => {
-            let odd = |slot: u32| place(slot).digit().is_some_and(|digit| digit & 1 == 1);
+            let odd = |slot: u32| place(slot).is_odd_half();
             (0..snapshot.leaves.len() as u32)
                 .filter(|&slot| !(odd(slot) && snapshot.is_pair(slot as usize)))
                 .collect()

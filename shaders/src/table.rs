@@ -109,6 +109,10 @@ pub const FILES: &[(&str, &str)] = &[
     ("passes/flag.wgsl", include_str!("../passes/flag.wgsl")),
     ("passes/measure.wgsl", include_str!("../passes/measure.wgsl")),
     ("passes/pose.wgsl", include_str!("../passes/pose.wgsl")),
+    (
+        "passes/pose_gaussian.wgsl",
+        include_str!("../passes/pose_gaussian.wgsl"),
+    ),
     ("passes/pose_points.wgsl", include_str!("../passes/pose_points.wgsl")),
     (
         "passes/pose_triangles.wgsl",

@@ -32,6 +32,7 @@ mod metrics;
 mod morphing;
 mod pairs;
 mod posing;
+mod posing_gaussian;
 mod precision;
 mod scaling;
 mod shaders;

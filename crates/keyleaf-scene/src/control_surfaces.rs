@@ -5,7 +5,9 @@ use std::path::Path;
 use std::sync::Arc;
 
 use glam::DVec3;
-use keyleaf_surface::gaussian::{Conditioning, CovarianceMesh, GaussianProduct, GaussianSettings, Solver, Symmetric3};
+use keyleaf_surface::gaussian::{
+    Conditioning, Covariance, CovarianceMesh, GaussianProduct, GaussianSettings, Solver, Symmetric3,
+};
 use keyleaf_surface::{
     ControlMesh, Corner, CornerAttributes, CornerNormals, Crease, LimitSamples, LoopWeights, Subdivision,
     SubdivisionScheme, SubdivisionSettings, Surface, TrianglePatches,
@@ -42,6 +44,7 @@ pub struct ControlCage {
 enum AtRest {
     Subdivision(Arc<Subdivision>),
     Triangles(Arc<TrianglePatches>),
+    Gaussian(Arc<GaussianProduct>),
 }
 
 impl AtRest {
@@ -49,14 +52,20 @@ impl AtRest {
         match self {
             Self::Subdivision(surface) => Arc::clone(surface) as Arc<dyn Surface>,
             Self::Triangles(surface) => Arc::clone(surface) as Arc<dyn Surface>,
+            Self::Gaussian(surface) => Arc::clone(surface) as Arc<dyn Surface>,
         }
     }
 
     /// None where a pose has no surface.
-    fn posed(&self, positions: &[DVec3]) -> Option<Self> {
+    fn posed(&self, positions: &[DVec3], covariances: Option<&[[f64; 6]]>) -> Option<Self> {
         Some(match self {
             Self::Subdivision(surface) => Self::Subdivision(Arc::new(surface.posed(positions)?)),
             Self::Triangles(surface) => Self::Triangles(Arc::new(surface.posed(positions)?)),
+            Self::Gaussian(surface) => {
+                let covariance = |&numbers| Some(Covariance::regularised(Symmetric3::from_array(numbers)).ok()?.0);
+                let covariances: Option<Vec<_>> = covariances?.iter().map(covariance).collect();
+                Self::Gaussian(Arc::new(surface.posed(positions, &covariances?)?))
+            }
         })
     }
 
@@ -67,6 +76,9 @@ impl AtRest {
                 Arc::make_mut(rest).allow_for(std::slice::from_ref(posed.as_ref()));
             }
             (Self::Triangles(rest), Self::Triangles(posed)) => {
+                Arc::make_mut(rest).allow_for(std::slice::from_ref(posed.as_ref()));
+            }
+            (Self::Gaussian(rest), Self::Gaussian(posed)) => {
                 Arc::make_mut(rest).allow_for(std::slice::from_ref(posed.as_ref()));
             }
             _ => {}
@@ -101,13 +113,17 @@ impl ControlCage {
     /// # Errors
     /// [`PoseError`] if vertices or covariances of the pose make up none.
     pub fn surface_at(&self, time: f64) -> Result<Arc<dyn Surface>, PoseError> {
-        if let Some(posed) = self.at_rest.as_ref().and_then(|rest| rest.posed(&self.pose(time))) {
+        if let Some(posed) = self.at_rest.as_ref().and_then(|rest| self.posed(rest, time)) {
             return Ok(posed.surface());
         }
         surface(self, &self.shape, time).map_err(|failure| PoseError {
             time,
             reason: failure.source.to_string(),
         })
+    }
+
+    fn posed(&self, rest: &AtRest, time: f64) -> Option<AtRest> {
+        rest.posed(&self.pose(time), self.pose_covariances(time).as_deref())
     }
 
     /// What its surface is.
@@ -130,13 +146,14 @@ impl ControlCage {
     fn keep_at_rest(&mut self) -> Result<Option<Arc<dyn Surface>>, Failure> {
         let mut control = self.control.clone();
         control.mesh.positions = self.pose(0.0);
-        let Some(mut rest) = at_rest(&control, &self.shape)? else {
+        let covariances = self.pose_covariances(0.0);
+        let Some(mut rest) = at_rest(&control, covariances.as_deref(), &self.shape)? else {
             return Ok(None);
         };
         if let Some(motion) = &self.motion {
             let step = motion.duration() / f64::from(POSES);
             for pose in 0..POSES {
-                if let Some(posed) = rest.posed(&motion.pose(f64::from(pose) * step)) {
+                if let Some(posed) = self.posed(&rest, f64::from(pose) * step) {
                     rest.allow_for(&posed);
                 }
             }
@@ -339,21 +356,18 @@ fn covariances(
 fn surface(cage: &ControlCage, shape: &Shape, time: f64) -> Result<Arc<dyn Surface>, Failure> {
     let mut control = cage.control.clone();
     control.mesh.positions = cage.pose(time);
-    if let Some(surface) = at_rest(&control, shape)? {
+    let covariances = cage.pose_covariances(time);
+    if let Some(surface) = at_rest(&control, covariances.as_deref(), shape)? {
         return Ok(surface.surface());
     }
     match shape {
         Shape::Qas(_) => qas_of_sharp(&control),
-        Shape::GaussianProduct(shape) => {
-            let covariances = cage.pose_covariances(time).unwrap_or_default();
-            gaussian_product(&control, &covariances, shape)
-        }
         shape => Err(not_yet(shape.name())),
     }
 }
 
-/// The surface, if it follows from the vertices alone.
-fn at_rest(control: &ControlMesh, shape: &Shape) -> Result<Option<AtRest>, Failure> {
+/// The surface, if it follows from the vertices and their covariances alone.
+fn at_rest(control: &ControlMesh, covariances: Option<&[[f64; 6]]>, shape: &Shape) -> Result<Option<AtRest>, Failure> {
     let (scheme, isolation) = match shape {
         Shape::CatmullClark(shape) => (SubdivisionScheme::CatmullClark, shape.isolation),
         Shape::Loop(shape) => {
@@ -365,6 +379,9 @@ fn at_rest(control: &ControlMesh, shape: &Shape) -> Result<Option<AtRest>, Failu
         }
         Shape::Qas(shape) => return qas(control, shape),
         Shape::PnTriangles => return pn_triangles(control).map(Some),
+        Shape::GaussianProduct(shape) => {
+            return gaussian_product(control, covariances.unwrap_or_default(), shape).map(Some);
+        }
         _ => return Ok(None),
     };
     let settings = SubdivisionSettings { scheme, isolation };
@@ -407,11 +424,7 @@ fn pn_triangles(control: &ControlMesh) -> Result<AtRest, Failure> {
     Ok(AtRest::Triangles(Arc::new(patches.map_err(Failure::of("surface"))?)))
 }
 
-fn gaussian_product(
-    control: &ControlMesh,
-    covariances: &[[f64; 6]],
-    shape: &GaussianShape,
-) -> Result<Arc<dyn Surface>, Failure> {
+fn gaussian_product(control: &ControlMesh, covariances: &[[f64; 6]], shape: &GaussianShape) -> Result<AtRest, Failure> {
     let matrices: Vec<Symmetric3> = covariances.iter().map(|&c| Symmetric3::from_array(c)).collect();
     // They have been checked; between keys of a motion they may be a little flatter.
     let (mesh, _) = CovarianceMesh::new(control.clone(), &matrices, Conditioning::Floor)
@@ -429,7 +442,7 @@ fn gaussian_product(
         },
     };
     let surface = GaussianProduct::new(&mesh, settings).map_err(Failure::of("surface"))?;
-    Ok(Arc::new(surface))
+    Ok(AtRest::Gaussian(Arc::new(surface)))
 }
 
 /// A kind of surface that is parsed and not made.

@@ -153,7 +153,7 @@ fn surface(
     add("surface A", 4 * tables.a.len());
     add("surface B", 4 * tables.b.len());
     if let Some(pose) = object.surface.pose_tables().filter(|_| kind.pose.is_some()) {
-        let words = pose.words.len() + pose.rows.len() + pose.scratch + 4 * pose.vertices;
+        let words = pose.words.len() + pose.rows.len() + pose.scratch + 4 * pose.cage_entries();
         add("pose", pose.params.len() + 4 * words);
     }
     for (name, data) in [("heights", &tables.heights), ("height bounds", &tables.height_bounds)] {

@@ -279,8 +279,8 @@ impl Stage {
         self.show
     }
 
-    /// Puts moving surfaces where they are at a time in seconds; the next update follows. Most are posed on the GPU; Gaussian products,
-    /// and QAS of Loop surfaces with creases, have their tables made anew.
+    /// Puts moving surfaces where they are at a time in seconds; the next update follows. They are posed on the GPU; QAS of Loop surfaces
+    /// with creases have their tables made anew.
     ///
     /// # Errors
     /// [`LoadError::Pose`] if the pose of one has no surface.
@@ -292,7 +292,10 @@ impl Stage {
                 source: PoseError { time, reason },
             };
             let posed = if object.quadtree.is_posed_on_gpu() {
-                object.quadtree.set_cage(cage.pose(time))
+                match cage.pose_covariances(time) {
+                    Some(covariances) => object.quadtree.set_covariance_cage(cage.pose(time), &covariances),
+                    None => object.quadtree.set_cage(cage.pose(time)),
+                }
             } else {
                 let surface = cage.surface_at(time).map_err(|error| no_pose(error.reason))?;
                 object.quadtree.set_surface(&self.gpu.queue, surface)

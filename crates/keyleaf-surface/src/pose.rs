@@ -20,6 +20,11 @@ impl PoseShader {
         files: &["passes/pose.wgsl", "shared/pose_triangle.wgsl"],
         entries: &["pose_faces", "pose_edges"],
     };
+    /// Gaussian products, of both schemes.
+    pub const GAUSSIAN: Self = Self {
+        files: &["passes/pose_gaussian.wgsl"],
+        entries: &["pose_faces"],
+    };
     /// QAS of the Loop limit surface.
     pub const QAS_LIMIT: Self = Self {
         files: &["shared/pose_limit.wgsl"],
@@ -59,6 +64,15 @@ pub struct PoseTables {
     pub scratch: usize,
     /// Vertices of the control mesh.
     pub vertices: usize,
+    /// Whether they come with covariances: axes and standard deviations.
+    pub has_covariances: bool,
     /// One an entry point.
     pub dispatches: Vec<PoseDispatch>,
+}
+
+impl PoseTables {
+    /// Entries of four floats that the GPU reads of all vertices of the control mesh.
+    pub fn cage_entries(&self) -> usize {
+        self.vertices * if self.has_covariances { 4 } else { 1 }
+    }
 }

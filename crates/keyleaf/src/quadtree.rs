@@ -225,12 +225,24 @@ impl Quadtree {
     /// [`KeyleafError::Cage`] if the settings do not say that it moves, the surface cannot be posed on the GPU
     /// ([`set_surface`](Self::set_surface) can), a position is not finite or there are not as many as before.
     pub fn set_cage(&mut self, positions: Vec<DVec3>) -> Result<(), KeyleafError> {
-        let Some(posing) = &mut self.posing else {
-            return Err(KeyleafError::Cage(
-                "it was made without Settings::moving, or does not follow from its control mesh on the GPU".to_owned(),
-            ));
-        };
-        posing.set(positions)
+        self.posing()?.set(positions, None)
+    }
+
+    /// The same of a covariance mesh: means and covariances (xx, xy, xz, yy, yz, zz) in squared object units, one a vertex. Variances below the
+    /// floor are raised to it. Bounds are those of the surface that it was made with, which is to
+    /// [allow](keyleaf_surface::gaussian::GaussianProduct::allow_for) for all poses.
+    ///
+    /// # Errors
+    /// [`KeyleafError::Cage`] as [`set_cage`](Self::set_cage), or if a matrix is no covariance.
+    pub fn set_covariance_cage(&mut self, means: Vec<DVec3>, covariances: &[[f64; 6]]) -> Result<(), KeyleafError> {
+        self.posing()?.set(means, Some(covariances))
+    }
+
+    fn posing(&mut self) -> Result<&mut Posing, KeyleafError> {
+        let reason = "it was made without Settings::moving, or does not follow from its control mesh on the GPU";
+        self.posing
+            .as_mut()
+            .ok_or_else(|| KeyleafError::Cage(reason.to_owned()))
     }
 
     /// Whether [`set_cage`](Self::set_cage) can move it.

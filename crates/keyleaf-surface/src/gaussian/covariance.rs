@@ -1,7 +1,7 @@
 //! Covariances of vertices: which matrices are ones, and what becomes of those that nearly are.
 
 use super::solve::Ldl;
-use super::symmetric::Symmetric3;
+use super::symmetric::{Eigen, Symmetric3};
 use glam::DVec3;
 
 /// The greatest ratio of the greatest to the least variance of a covariance.
@@ -98,6 +98,13 @@ impl Covariance {
         let [x, y, z] = [DVec3::X, DVec3::Y, DVec3::Z].map(|axis| factors.solve(axis));
         let mean = |a: f64, b: f64| (a + b) / 2.0;
         Symmetric3::from_array([x.x, mean(x.y, y.x), mean(x.z, z.x), y.y, mean(y.z, z.y), z.z]) * (1.0 / scale)
+    }
+
+    /// Axes, and standard deviations along them.
+    pub fn axes(&self) -> ([DVec3; 3], DVec3) {
+        let Eigen { values, vectors } = self.0.eigen();
+        let least = values[0] / (2.0 * CONDITION_LIMIT); // that of a covariance is more, but for rounding
+        (vectors, DVec3::from(values.map(|variance| variance.max(least).sqrt())))
     }
 
     /// Greatest over least variance.

@@ -50,6 +50,15 @@ pub struct DualPatches {
 }
 
 impl DualPatches {
+    /// No patches, of so many control points.
+    pub fn none(size: usize) -> Self {
+        Self {
+            size,
+            frames: Vec::new(),
+            nets: Vec::new(),
+        }
+    }
+
     /// Of the neighbourhoods of these vertices. And errors at the samples of terminal patches, with their patches, about the centre of the
     /// vertices.
     pub fn new(all: &Neighbourhoods, vertices: &DualVertices) -> (Self, Vec<(u32, Dual)>) {

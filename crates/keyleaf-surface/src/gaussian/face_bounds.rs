@@ -12,8 +12,8 @@ use crate::subdivision::neighbourhoods::{Kind, Neighbourhoods};
 use glam::DVec3;
 
 /// How many more parts than patches there may be a face, so that bounds are closer.
-const PARTS: usize = 12;
-const PARTS_OF_TRIANGLE: usize = 15;
+const PARTS: usize = 24;
+const PARTS_OF_TRIANGLE: usize = 30;
 
 /// How many more there may be, so that there are bounds.
 const PARTS_FOR_ANY: usize = 3000;

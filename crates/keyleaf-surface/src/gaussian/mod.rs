@@ -43,7 +43,7 @@
 //! | `lanes`, `lanes_of_triangle` | their control points, number by number |
 //! | `dual_patches`, `terminal`, `face_bounds` | the patches of a surface, how far they are off, bounds of faces |
 //! | `rounding` | what f32 loses of the means of a surface |
-//! | `surface`, `tables` | [`GaussianProduct`], and what the GPU reads |
+//! | `surface`, `tables`, `pose` | [`GaussianProduct`], and what the GPU reads |
 //!
 //! ```
 //! use glam::DVec3;
@@ -68,6 +68,7 @@ mod face_bounds;
 mod lanes;
 mod lanes_of_triangle;
 mod patch;
+mod pose;
 mod rounding;
 mod solve;
 mod surface;

@@ -1,6 +1,7 @@
 //! Gaussian-product surfaces. Twin of `shaders/surfaces/gaussian_catmull_clark.wgsl` and `gaussian_loop.wgsl`.
 
 use super::bound::Regions;
+use super::covariance::Covariance;
 use super::covariance_mesh::CovarianceMesh;
 use super::dual::{Dual, DualFrame, MeanJet};
 use super::dual_patches::{DualPatches, DualVertices};
@@ -8,7 +9,7 @@ use super::face_bounds::FaceBounds;
 use super::lanes::Square;
 use super::lanes_of_triangle::BARYCENTRIC;
 use super::symmetric::Symmetric3;
-use super::{rounding, tables, terminal};
+use super::{pose, rounding, tables, terminal};
 use crate::direction::frame_normal;
 use crate::mesh::unit_or_up;
 use crate::root_bound::RootBound;
@@ -18,10 +19,11 @@ use crate::subdivision::cage::Cage;
 use crate::subdivision::cell::{DomainPoint, TrianglePoint};
 use crate::subdivision::exact::{ExactCells, ExactPoint};
 use crate::subdivision::neighbourhoods::Neighbourhoods;
+use crate::subdivision::tree::CellPlace;
 use crate::subdivision::{MAX_ENTRIES, MAX_ISOLATION, drawn_topology, face_coord};
 use crate::{
-    ParameterError, SettingError, SubdivisionError, SubdivisionScheme, Surface, SurfaceBound, SurfaceFrame,
-    SurfaceTables, diamond,
+    ParameterError, PoseShader, PoseTables, SettingError, SubdivisionError, SubdivisionScheme, Surface, SurfaceBound,
+    SurfaceFrame, SurfaceTables, diamond,
 };
 use glam::DVec3;
 use keyleaf_key::{Place, RootPoint, Topology};
@@ -130,32 +132,75 @@ impl GaussianProduct {
                 isolation,
             });
         }
-        let precisions = common_unit(mesh);
-        let vertices = DualVertices::new(&cage.positions, &precisions);
-        let (patches, errors) = DualPatches::new(&neighbourhoods, &vertices);
         let mut surface = Self {
             settings,
-            terminal_error: terminal::error(&patches, &errors, vertices.centre),
-            rounding: match scheme {
-                SubdivisionScheme::CatmullClark => rounding::error(&Square, &patches, settings.solver),
-                SubdivisionScheme::Loop(_) => rounding::error(&BARYCENTRIC, &patches, settings.solver),
-            },
-            frames: ring_frames(&neighbourhoods, &cage.positions, &precisions),
+            terminal_error: 0.0,
+            rounding: 0.0,
+            frames: Vec::new(),
             normals: Vec::new(),
             bounds: Vec::new(),
             box_of_patches: (DVec3::ZERO, DVec3::ZERO),
             exact: ExactCells::new(cage.topology.half_edge_count() as usize),
             cage,
-            precisions,
+            precisions: common_unit(mesh.covariances()),
+            patches: DualPatches::none(neighbourhoods.control_points),
             neighbourhoods,
-            patches,
             topology,
         };
-        surface.normals = (0..surface.topology.face_count())
-            .map(|face| surface.mean_normal(face))
-            .collect();
-        surface.set_bounds();
+        surface.follow_cage();
         Ok(surface)
+    }
+
+    /// The surface with these means and covariances: the GPU poses it alike. None if there are not as many as before or a mean is not
+    /// finite.
+    pub fn posed(&self, means: &[DVec3], covariances: &[Covariance]) -> Option<Self> {
+        let count = self.cage.positions.len();
+        let fits = [means.len(), covariances.len()] == [count; 2] && means.iter().all(|mean| mean.is_finite());
+        fits.then(|| {
+            let mut posed = self.clone();
+            posed.cage.positions = means.to_vec();
+            posed.precisions = common_unit(covariances);
+            posed.follow_cage();
+            posed
+        })
+    }
+
+    /// Makes bounds and errors those of this surface and of others, which are this one posed: what does not change while the control mesh
+    /// moves.
+    pub fn allow_for(&mut self, others: &[Self]) {
+        for other in others {
+            self.terminal_error = self.terminal_error.max(other.terminal_error);
+            self.rounding = self.rounding.max(other.rounding);
+            for (own, other) in self.bounds.iter_mut().zip(&other.bounds) {
+                *own = own.max(*other);
+            }
+            let ((low, high), (other_low, other_high)) = (self.box_of_patches, other.box_of_patches);
+            self.box_of_patches = (low.min(other_low), high.max(other_high));
+        }
+    }
+
+    /// Patches, normals, bounds and errors of the present covariance mesh.
+    fn follow_cage(&mut self) {
+        let (means, scheme) = (&self.cage.positions, self.settings.scheme);
+        let vertices = DualVertices::new(means, &self.precisions);
+        let (patches, errors) = DualPatches::new(&self.neighbourhoods, &vertices);
+        self.terminal_error = terminal::error(&patches, &errors, vertices.centre);
+        self.rounding = match scheme {
+            SubdivisionScheme::CatmullClark => rounding::error(&Square, &patches, self.settings.solver),
+            SubdivisionScheme::Loop(_) => rounding::error(&BARYCENTRIC, &patches, self.settings.solver),
+        };
+        self.frames = ring_frames(&self.neighbourhoods, means, &self.precisions);
+        self.exact = ExactCells::new(self.cage.topology.half_edge_count() as usize);
+        self.patches = patches;
+        self.normals = (0..self.topology.face_count())
+            .map(|face| self.mean_normal(face))
+            .collect();
+        self.set_bounds();
+    }
+
+    /// The means of the vertices of the control mesh.
+    pub fn control_positions(&self) -> &[DVec3] {
+        &self.cage.positions
     }
 
     /// How it was made.
@@ -239,7 +284,7 @@ impl GaussianProduct {
         let (mut sum, mut lengths, mut longest) = (DVec3::ZERO, 0.0, DVec3::ZERO);
         for (domain, tree) in self.neighbourhoods.trees(face).iter().enumerate() {
             for (patch, place) in (0..).zip(&tree.places) {
-                if place.right[0].abs() < LEAST_PART {
+                if !counts_for_normal(place) {
                     continue;
                 }
                 let patch = self.patch(face, domain, patch);
@@ -278,9 +323,14 @@ impl GaussianProduct {
     }
 }
 
+/// Whether the normal of a face takes a patch into account.
+pub fn counts_for_normal(place: &CellPlace) -> bool {
+    place.right[0].abs() >= LEAST_PART
+}
+
 /// Precisions of the vertices in a unit in which the largest trace is 1. A common factor changes nothing.
-fn common_unit(mesh: &CovarianceMesh) -> Vec<Symmetric3> {
-    let precisions = mesh.covariances().iter().map(|covariance| covariance.precision());
+fn common_unit(covariances: &[Covariance]) -> Vec<Symmetric3> {
+    let precisions = covariances.iter().map(|covariance| covariance.precision());
     let precisions: Vec<Symmetric3> = precisions.collect();
     let largest = precisions.iter().map(|precision| precision.trace()).fold(0.0, f64::max);
     precisions
@@ -367,6 +417,14 @@ impl Surface for GaussianProduct {
 
     fn tables(&self, origin: DVec3) -> SurfaceTables {
         tables::tables(self, origin)
+    }
+
+    fn pose_shader(&self) -> Option<PoseShader> {
+        Some(PoseShader::GAUSSIAN)
+    }
+
+    fn pose_tables(&self) -> Option<PoseTables> {
+        Some(pose::tables(self))
     }
 
     /// Faces have the numbers of the control mesh.

@@ -89,6 +89,7 @@ pub fn tables(surface: &TrianglePatches) -> Option<PoseTables> {
         rows: rows.floats,
         scratch: 4 * (sums(recipe) * points.len()).max(1),
         vertices: surface.cage.len(),
+        has_covariances: false,
         dispatches: has_points.then_some(points_first).into_iter().chain(others).collect(),
     })
 }

@@ -158,6 +158,20 @@ impl Neighbourhoods {
             .collect()
     }
 
+    /// The rows of all kinds, and by kind the number of its first weight.
+    pub fn rows_of_kinds(&self) -> (Vec<f32>, Vec<u32>) {
+        let mut widths = vec![0; self.kinds.len()];
+        for face in &self.faces {
+            widths[face.kind as usize] = face.vertices.len();
+        }
+        let (mut rows, mut firsts) = (Vec::new(), Vec::new());
+        for (kind, width) in (0..).zip(widths) {
+            firsts.push(rows.len() as u32);
+            rows.extend(self.rows(kind, width).iter().map(|&weight| weight as f32));
+        }
+        (rows, firsts)
+    }
+
     fn evaluate_face<V: Vector>(&self, kind: u32, ring: &[V], all: &mut Evaluated<V>) {
         let Kind { first_step, trees, .. } = &self.kinds[kind as usize];
         let Some(first_step) = first_step else {

@@ -9,7 +9,7 @@
 //!   root, the word of a list relative to the record and its length; those lists, patches that the root touches, with bit 31 where
 //!   their parameters are the root's exchanged.
 
-use super::neighbourhoods::{Kind, Neighbourhoods};
+use super::neighbourhoods::Kind;
 use super::{Subdivision, SubdivisionScheme};
 use crate::surface::uniform;
 use crate::{PoseDispatch, PoseShader, PoseTables, Surface};
@@ -78,6 +78,7 @@ pub fn tables(surface: &Subdivision) -> PoseTables {
         rows: kinds.rows,
         scratch: SCRATCH_OF_PATCH * (all.entries / all.control_points) + SCRATCH_OF_HALF_EDGE * half_edges,
         vertices: surface.cage.positions.len(),
+        has_covariances: false,
         dispatches: vec![
             PoseDispatch::Groups(topology.face_count()),
             PoseDispatch::Invocations(topology.half_edge_count()),
@@ -110,30 +111,19 @@ struct Kinds {
 impl Kinds {
     fn new(surface: &Subdivision, first: usize) -> Self {
         let all = &surface.neighbourhoods;
+        let (rows, rows_of) = all.rows_of_kinds();
         let mut kinds = Self {
             words: Vec::new(),
             records: Vec::new(),
-            rows: Vec::new(),
-            rows_of: Vec::new(),
+            rows,
+            rows_of,
         };
-        for (number, (kind, width)) in (0..).zip(all.kinds.iter().zip(widths_of_kinds(all))) {
+        for kind in &all.kinds {
             kinds.records.push((first + kinds.words.len()) as u32);
-            kinds.rows_of.push(kinds.rows.len() as u32);
             kinds.words.extend(record(kind));
-            let rows = all.rows(number, width);
-            kinds.rows.extend(rows.iter().map(|&weight| weight as f32));
         }
         kinds
     }
-}
-
-/// How many vertices the rings of faces of each kind have.
-fn widths_of_kinds(all: &Neighbourhoods) -> Vec<usize> {
-    let mut widths = vec![0; all.kinds.len()];
-    for face in &all.faces {
-        widths[face.kind as usize] = face.vertices.len();
-    }
-    widths
 }
 
 /// The record of a kind.

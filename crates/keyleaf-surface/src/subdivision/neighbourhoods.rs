@@ -59,10 +59,30 @@ pub struct Neighbourhoods {
     pub kinds: Vec<Kind>,
     /// The shapes of the nodes of their trees.
     shapes: Vec<Shape>,
+    /// By kind, the weights of its control points, if there are [`FACES_OF_ROWS`] faces of it.
+    rows: Vec<Option<Rows>>,
     /// The faces of the surface.
     pub faces: Vec<FaceRing>,
     /// Control points of all patches of all faces.
     pub entries: usize,
+}
+
+/// So many faces of a kind are worth weights that take the vertices of their rings to control points at once, instead of level by level.
+const FACES_OF_ROWS: usize = 4;
+
+/// Columns of weights that are found at once.
+const COLUMNS: usize = 8;
+
+/// What the vertices of a ring count in the control points of a kind, and in its errors; of a ring of `width` vertices.
+#[derive(Clone, Debug)]
+struct Rows {
+    width: usize,
+    /// In the order of [`Evaluated::points`], whose first ones have weights that sum to 1, the others to 0.
+    points: Vec<f64>,
+    /// With the numbers of their patches.
+    errors: Vec<f64>,
+    patches_of_errors: Vec<u32>,
+    patches: u32,
 }
 
 impl Neighbourhoods {
@@ -98,13 +118,29 @@ impl Neighbourhoods {
                 first_entries,
             });
         }
-        Self {
+        let mut all = Self {
             control_points,
             kinds,
             shapes: grower.shapes.into_all(),
+            rows: Vec::new(),
             faces,
             entries,
+        };
+        let mut counts = vec![0; all.kinds.len()];
+        all.faces.iter().for_each(|face| counts[face.kind as usize] += 1);
+        let of_kind =
+            |(kind, (count, width)): (u32, (usize, usize))| (count >= FACES_OF_ROWS).then(|| all.rows(kind, width));
+        all.rows = (0..).zip(counts.into_iter().zip(all.widths())).map(of_kind).collect();
+        all
+    }
+
+    /// How many vertices the rings of faces have, by kind.
+    fn widths(&self) -> Vec<usize> {
+        let mut widths = vec![0; self.kinds.len()];
+        for face in &self.faces {
+            widths[face.kind as usize] = face.vertices.len();
         }
+        widths
     }
 
     /// The kind of a face.
@@ -136,38 +172,50 @@ impl Neighbourhoods {
         for face in &self.faces {
             ring.clear();
             ring.extend(face.vertices.iter().map(|&vertex| values[vertex as usize]));
-            self.evaluate_face(face.kind, &ring, all);
+            match &self.rows[face.kind as usize] {
+                Some(rows) => rows.evaluate(&ring, self.control_points, all),
+                None => self.evaluate_face(face.kind, &ring, all),
+            }
             take(all);
         }
     }
 
-    /// The control points of a kind as rows of weights of the vertices of the ring, which has `width`: those of a patch together, as
-    /// [`Evaluated::points`].
-    pub fn rows(&self, kind: u32, width: usize) -> Vec<f64> {
-        let columns: Vec<Vec<f64>> = (0..width)
-            .map(|vertex| {
-                let ring: Vec<f64> = (0..width).map(|k| if k == vertex { 1.0 } else { 0.0 }).collect();
-                let mut all = Evaluated::nothing();
-                self.evaluate_face(kind, &ring, &mut all);
-                all.points
-            })
-            .collect();
-        let entries = columns.first().map_or(0, Vec::len);
-        (0..entries)
-            .flat_map(|entry| columns.iter().map(move |column| column[entry]))
-            .collect()
+    /// The weights of a kind, for a ring of `width` vertices.
+    fn rows(&self, kind: u32, width: usize) -> Rows {
+        let mut rows = Rows {
+            width,
+            points: Vec::new(),
+            errors: Vec::new(),
+            patches_of_errors: Vec::new(),
+            patches: 0,
+        };
+        for first in (0..width).step_by(COLUMNS) {
+            let unit = |k| std::array::from_fn(|column| if first + column == k { 1.0 } else { 0.0 });
+            let ring: Vec<[f64; COLUMNS]> = (0..width).map(unit).collect();
+            let mut all = Evaluated::nothing();
+            self.evaluate_face(kind, &ring, &mut all);
+            rows.points.resize(width * all.points.len(), 0.0);
+            rows.errors.resize(width * all.errors.len(), 0.0);
+            let count = COLUMNS.min(width - first);
+            for (row, weights) in rows.points.chunks_exact_mut(width).zip(&all.points) {
+                row[first..first + count].copy_from_slice(&weights[..count]);
+            }
+            for (row, (_, weights)) in rows.errors.chunks_exact_mut(width).zip(&all.errors) {
+                row[first..first + count].copy_from_slice(&weights[..count]);
+            }
+            rows.patches_of_errors = all.errors.iter().map(|(patch, _)| *patch).collect();
+            rows.patches = all.patches;
+        }
+        rows
     }
 
     /// The rows of all kinds, and by kind the number of its first weight.
     pub fn rows_of_kinds(&self) -> (Vec<f32>, Vec<u32>) {
-        let mut widths = vec![0; self.kinds.len()];
-        for face in &self.faces {
-            widths[face.kind as usize] = face.vertices.len();
-        }
         let (mut rows, mut firsts) = (Vec::new(), Vec::new());
-        for (kind, width) in (0..).zip(widths) {
+        for (kind, (width, known)) in (0..).zip(self.widths().into_iter().zip(&self.rows)) {
             firsts.push(rows.len() as u32);
-            rows.extend(self.rows(kind, width).iter().map(|&weight| weight as f32));
+            let weights = |own: &Rows| own.points.iter().map(|&weight| weight as f32).collect::<Vec<_>>();
+            rows.extend(known.as_ref().map_or_else(|| weights(&self.rows(kind, width)), weights));
         }
         (rows, firsts)
     }
@@ -215,6 +263,28 @@ impl Neighbourhoods {
             // A node is a patch only if its shape has one, and has children only if its shape has been split.
             _ => {}
         }
+    }
+}
+
+impl Rows {
+    /// As [`Neighbourhoods::evaluate_face`], for values of the vertices of a ring.
+    fn evaluate<V: Vector>(&self, ring: &[V], control_points: usize, all: &mut Evaluated<V>) {
+        // Relative to the first vertex, which keeps the digits of what is far from zero.
+        let origin = ring[0];
+        let arms: Vec<V> = ring.iter().map(|value| value.plus(origin, -1.0)).collect();
+        let sum = |row: &[f64]| {
+            let terms = row.iter().zip(&arms).skip(1);
+            terms.fold(V::ZERO, |sum, (&weight, &arm)| sum.plus(arm, weight))
+        };
+        for patch in self.points.chunks_exact(self.width * control_points) {
+            let mut rows = patch.chunks_exact(self.width);
+            all.points.extend(rows.next().map(|first| origin.plus(sum(first), 1.0)));
+            all.points.extend(rows.map(sum));
+        }
+        let errors = self.errors.chunks_exact(self.width);
+        let numbers = self.patches_of_errors.iter().map(|patch| all.patches + patch);
+        all.errors.extend(numbers.zip(errors.map(sum)));
+        all.patches += self.patches;
     }
 }
 

@@ -11,7 +11,7 @@ use super::lanes_of_triangle::BARYCENTRIC;
 use super::symmetric::Symmetric3;
 use super::{pose, rounding, tables, terminal};
 use crate::direction::frame_normal;
-use crate::mesh::unit_or_up;
+use crate::mesh::{F32_ROUNDING, unit_or_up};
 use crate::root_bound::RootBound;
 use crate::subdivision::addresses::canonical;
 use crate::subdivision::approximation::{square_patch, triangle_patch};
@@ -30,6 +30,9 @@ use keyleaf_key::{Place, RootPoint, Topology};
 
 /// Patches that are less of their domain are left out of the normal of the face.
 const LEAST_PART: f64 = 0.125;
+
+/// What poses on the GPU may lose of positions, as a part of the largest coordinate: 61 roundings have been seen (`tests/posing_gaussian.rs`).
+const LOST_BY_POSING: f64 = 128.0 * F32_ROUNDING;
 
 /// How the shader finds a mean from its precision.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -110,6 +113,8 @@ pub struct GaussianProduct {
     exact: ExactCells<Dual>,
     /// What f32 loses of a mean, from above.
     pub(super) rounding: f64,
+    /// What is lost besides, as a part of the largest coordinate, where the GPU poses the surface.
+    pub(super) lost_by_posing: f64,
 }
 
 impl GaussianProduct {
@@ -136,6 +141,7 @@ impl GaussianProduct {
             settings,
             terminal_error: 0.0,
             rounding: 0.0,
+            lost_by_posing: 0.0,
             frames: Vec::new(),
             normals: Vec::new(),
             bounds: Vec::new(),
@@ -168,6 +174,7 @@ impl GaussianProduct {
     /// Makes bounds and errors those of this surface and of others, which are this one posed: what does not change while the control mesh
     /// moves.
     pub fn allow_for(&mut self, others: &[Self]) {
+        self.lost_by_posing = LOST_BY_POSING;
         for other in others {
             self.terminal_error = self.terminal_error.max(other.terminal_error);
             self.rounding = self.rounding.max(other.rounding);

@@ -35,7 +35,7 @@ pub fn tables(surface: &GaussianProduct, origin: DVec3) -> SurfaceTables {
     });
     let (low, high) = surface.bounding_box();
     let largest = (low - origin).abs().max((high - origin).abs()).max_element();
-    let rounding = POSITION_ERROR * largest + surface.rounding;
+    let rounding = (POSITION_ERROR + surface.lost_by_posing) * largest + surface.rounding;
     let mut floats = Vec::with_capacity(4 * (patches.frames.len() * entries + surface.normals.len()));
     for (own, net) in patches.frames.iter().zip(&patches.nets) {
         push_frame(&mut floats, &own.frame, origin);

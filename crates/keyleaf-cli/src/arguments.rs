@@ -256,19 +256,22 @@ fn parse_metric(text: &str) -> anyhow::Result<Metric> {
     })
 }
 
-fn parse_back_faces(text: &str) -> anyhow::Result<BackFaces> {
+/// What is done with triangles that are seen from behind, by name.
+pub fn parse_back_faces(text: &str) -> anyhow::Result<BackFaces> {
     let all = BackFaces::ALL;
     let names = || all.map(BackFaces::name).join(", ");
     let found = all.into_iter().find(|how| how.name() == text);
     found.with_context(|| format!("expected one of {}", names()))
 }
 
-fn parse_morph(text: &str) -> anyhow::Result<Morph> {
+/// Where new vertices are drawn, by name.
+pub fn parse_morph(text: &str) -> anyhow::Result<Morph> {
     let found = Morph::ALL.into_iter().find(|how| how.name() == text);
     found.context("expected none or geomorph")
 }
 
-fn parse_pairs(text: &str) -> anyhow::Result<Pairs> {
+/// Which leaves are drawn as pairs, by name.
+pub fn parse_pairs(text: &str) -> anyhow::Result<Pairs> {
     let found = Pairs::ALL.into_iter().find(|which| which.name() == text);
     found.context("expected forced or wished")
 }

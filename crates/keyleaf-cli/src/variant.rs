@@ -1,7 +1,8 @@
 //! Settings that are swept: `edge=1,2,4`, each value a variant.
 
+use crate::arguments::{parse_back_faces, parse_morph, parse_pairs};
 use anyhow::{Context, bail, ensure};
-use keyleaf::{BackFaces, Balance, Metric, Morph, Pairs, Settings};
+use keyleaf::{Balance, Metric, Settings};
 use std::collections::BTreeMap;
 
 /// A setting and the values that it takes in turn.
@@ -102,18 +103,9 @@ fn apply(name: &str, value: &str, settings: &mut Settings) -> anyhow::Result<()>
         "max-level" => settings.max_level = count()?,
         "settle" => settings.settle = count()?,
         "guard" => settings.guard_factor = number()?,
-        "back-faces" => {
-            let found = BackFaces::ALL.into_iter().find(|how| how.name() == value);
-            settings.back_faces = found.with_context(wrong)?;
-        }
-        "morph" => {
-            let found = Morph::ALL.into_iter().find(|how| how.name() == value);
-            settings.morph = found.with_context(wrong)?;
-        }
-        "pairs" => {
-            let found = Pairs::ALL.into_iter().find(|which| which.name() == value);
-            settings.pairs = found.with_context(wrong)?;
-        }
+        "back-faces" => settings.back_faces = parse_back_faces(value).with_context(wrong)?,
+        "morph" => settings.morph = parse_morph(value).with_context(wrong)?,
+        "pairs" => settings.pairs = parse_pairs(value).with_context(wrong)?,
         "neighbours" => {
             settings.balance = match value {
                 "on" => Balance::Table,

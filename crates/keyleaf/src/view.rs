@@ -1,7 +1,8 @@
 //! A camera, and what it asks of a quadtree.
 
 use crate::Settings;
-use crate::settings::{Morph, Pairs, Scale};
+use crate::metric::Scale;
+use crate::settings::{Morph, Pairs};
 use encase::ShaderType;
 use glam::{DAffine3, DMat3, DQuat, DVec3, Mat4, UVec2, Vec3, Vec4};
 use keyleaf_key::MAX_LEVEL;

@@ -65,6 +65,8 @@ pub fn kinds() -> Vec<Kind> {
         ("surfaces/qas.wgsl", PoseShader::QAS_LIMIT),
         ("surfaces/qas.wgsl", PoseShader::QAS_BUTTERFLY),
         ("surfaces/pn.wgsl", PoseShader::POINT_NORMAL),
+        ("surfaces/gaussian_catmull_clark.wgsl", PoseShader::GAUSSIAN),
+        ("surfaces/gaussian_loop.wgsl", PoseShader::GAUSSIAN),
     ] {
         kinds.push(Kind {
             surface,

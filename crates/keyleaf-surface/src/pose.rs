@@ -7,6 +7,8 @@ pub struct PoseShader {
     pub files: &'static [&'static str],
     /// Entry points, in the order of their dispatches.
     pub entries: &'static [&'static str],
+    /// Whether bounds follow, which are in `surface_b`.
+    pub finds_bounds: bool,
 }
 
 impl PoseShader {
@@ -14,31 +16,37 @@ impl PoseShader {
     pub const CATMULL_CLARK: Self = Self {
         files: &["passes/pose.wgsl", "shared/pose_square.wgsl"],
         entries: &["pose_faces", "pose_edges"],
+        finds_bounds: true,
     };
     /// Loop surfaces.
     pub const LOOP: Self = Self {
         files: &["passes/pose.wgsl", "shared/pose_triangle.wgsl"],
         entries: &["pose_faces", "pose_edges"],
+        finds_bounds: true,
     };
     /// Gaussian products, of both schemes.
     pub const GAUSSIAN: Self = Self {
         files: &["passes/pose_gaussian.wgsl"],
         entries: &["pose_faces"],
+        finds_bounds: false,
     };
     /// QAS of the Loop limit surface.
     pub const QAS_LIMIT: Self = Self {
         files: &["shared/pose_limit.wgsl"],
         entries: &["pose_points", "pose_vertices", "pose_triangles", "pose_edges"],
+        finds_bounds: true,
     };
     /// QAS through the vertices of a mesh.
     pub const QAS_BUTTERFLY: Self = Self {
         files: &["shared/pose_butterfly.wgsl"],
         entries: &["pose_points", "pose_vertices", "pose_triangles", "pose_edges"],
+        finds_bounds: true,
     };
     /// PN triangles.
     pub const POINT_NORMAL: Self = Self {
         files: &["shared/pose_point_normal.wgsl"],
         entries: &["pose_vertices", "pose_triangles", "pose_edges"],
+        finds_bounds: true,
     };
 }
 

@@ -87,6 +87,7 @@ pub fn modules(kind: &Kind) -> Vec<Module> {
     const UPDATE: &[Binding] = &[Uniform, Read, Read, Write, Write, Write];
     const UPDATE_CULLED: &[Binding] = &[Uniform, Read, Read, Write, Write, Write, Read, Read];
     const POSE: &[Binding] = &[Uniform, Read, Read, Read, Write, Write, Write];
+    const POSE_WITHOUT_BOUNDS: &[Binding] = &[Uniform, Read, Read, Read, Write, Absent, Write];
     const CULL: &[Binding] = &[Uniform, Write];
     const DECIDE: &[Binding] = &[Uniform, Read, Read, Write, Write, Write];
     const APPLY: &[Binding] = &[Uniform, Write, Write, Write, Write, Write];
@@ -160,7 +161,8 @@ pub fn modules(kind: &Kind) -> Vec<Module> {
         all.push(module("cull", files, CULL, true, &["cull_faces"]));
     }
     if let Some(pose) = kind.pose {
-        all.push(module("pose", pose.files, POSE, false, pose.entries));
+        let bindings = if pose.finds_bounds { POSE } else { POSE_WITHOUT_BOUNDS };
+        all.push(module("pose", pose.files, bindings, false, pose.entries));
     }
     if kind.balance == Balance::Table {
         all.push(module(

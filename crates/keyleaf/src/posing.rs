@@ -10,6 +10,9 @@ use glam::DVec3;
 use keyleaf_surface::gaussian::{Covariance, Symmetric3};
 use keyleaf_surface::{PoseDispatch, Surface};
 
+/// The binding of table B, where bounds are.
+const BOUNDS: u32 = 5;
+
 fn groups(dispatch: &PoseDispatch) -> [u32; 3] {
     match *dispatch {
         PoseDispatch::Groups(groups) => layout::groups_for(groups, 1),
@@ -112,9 +115,11 @@ impl Posing {
         };
         let cage = sized("keyleaf.pose.cage", 16 * pose.cage_entries() as u64);
         let scratch = sized("keyleaf.pose.scratch", 4 * pose.scratch as u64);
+        let finds_bounds = passes.kind.pose.is_some_and(|pose| pose.finds_bounds);
         let buffers = [&params, &words, &rows, &cage, &tables.a, &tables.b, &scratch];
         let resources: Vec<_> = (0..)
             .zip(buffers)
+            .filter(|(number, _)| *number != BOUNDS || finds_bounds)
             .map(|(number, buffer)| (number, buffer.as_entire_binding()))
             .collect();
         let own = [&params, &words, &rows, &cage, &scratch];

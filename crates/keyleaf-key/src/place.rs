@@ -88,7 +88,7 @@ impl RootPoint {
 ///
 /// With the unit u = [`Place::unit`] and the axes A = (1, 0) and B = (0, 1) turned left `orientation` times by 90 degrees, the
 /// corners are O = (`x`, `y`), R = O + u A and U = O + u B. Places and keys are in bijection. Children, parent, digit and, with
-/// a [`Topology`](crate::Topology), neighbours take constant time.
+/// a [`Topology`], neighbours take constant time.
 ///
 /// The fields are public because the GPU writes places too; [`Place::is_valid`] tells whether one is the place of a key.
 ///

@@ -129,7 +129,7 @@ impl Metric {
     }
 
     /// Whether the size of a node is a length that bounds its edges, and at least twice that of its children: then the vertices of one
-    /// level have arrived where [`Morph::Geomorph`] takes them before those of the next start.
+    /// level have arrived where [`Morph::Geomorph`](crate::Morph::Geomorph) takes them before those of the next start.
     pub fn halves(&self) -> bool {
         matches!(self, Self::Edge { .. } | Self::Boundary { .. } | Self::LocalArea { .. })
     }
